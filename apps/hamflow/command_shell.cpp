@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -199,21 +201,20 @@ class Shell {
       return exit_interrupted;
     }
     outcome_ = outcome;
-    const auto [message, hint] = session_failure(session_, last());
-    print_error(message, hint);
+    if (const auto error = session_summary(session_, last()).error) print_error(error->message, error->hint);
     return exit_failed;
   }
 
   /// Of each kind once, until the session starts anew.
   void warn() {
-    std::vector<std::string> fresh;
-    for (const std::string& warning : session_warnings(session_, last())) {
-      const std::string kind = warning.substr(0, warning.find(':'));
-      if (std::find(warned_.begin(), warned_.end(), kind) != warned_.end()) continue;
-      warned_.push_back(kind);
+    std::vector<Warning> fresh;
+    const Summary summary = session_summary(session_, last());
+    for (const Warning& warning : summary.warnings) {
+      if (std::find(warned_.begin(), warned_.end(), warning.kind) != warned_.end()) continue;
+      warned_.push_back(warning.kind);
       fresh.push_back(warning);
     }
-    print_warnings(fresh);
+    print_warnings(warning_lines(fresh));
   }
 
   SessionOutcome last() const { return {outcome_, seconds_}; }
@@ -251,10 +252,14 @@ class Shell {
   }
 
   void show_invariants(Json& all) const {
-    const Json values = Json::parse(session_summary(session_, last()))["invariants"];
-    for (const auto& [name, value] : values.items()) {
-      all[name] = value["final"];
-      all["max_error_" + name] = value["max_error"];
+    const auto shown = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    const Summary summary = session_summary(session_, last());
+    for (const InvariantSummary& each : summary.invariants) {
+      Json numbers = each.seen.final_digits;
+      if (numbers.empty()) std::ranges::transform(each.seen.final, std::back_inserter(numbers), shown);
+      all[each.name] = each.is_list ? numbers : numbers.at(0);
+      const std::optional<LongNumber> error = each.max_error();
+      all["max_error_" + each.name] = !error ? Json(nullptr) : error->text.empty() ? shown(*error) : Json(error->text);
     }
   }
 

@@ -304,5 +304,7 @@
 #include "hamflow/workflow/reverse.hpp"
 #include "hamflow/workflow/run.hpp"
 #include "hamflow/workflow/session.hpp"
+#include "hamflow/workflow/summary.hpp"
 #include "hamflow/workflow/sweep.hpp"
+#include "hamflow/workflow/sweep_summary.hpp"
 #include "hamflow/workflow/work_folder.hpp"

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/run/gas.hpp"
+#include "json_text.hpp"
 #include "summary.hpp"
+#include "summary_fields.hpp"
 #include "terminal.hpp"
 #include "warnings.hpp"
 #include "work_precision.hpp"
@@ -61,8 +63,8 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
 
 /// Of a gas in how many runs particles may pass through each other, told once, of the largest of their steps: from the
 /// start and, where it is known, the end of the motion itself.
-Json warnings_of(const Comparison& c, const ComparisonRequest& asked) {
-  Json all = Json::array();
+std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& asked) {
+  std::vector<Warning> all;
   if (asked.request.problem != GasKeys::problem) return all;
   const ProblemEntry& problem = find_problem(asked.request.problem, asked.request.variant);
   const Frame start = problem.start(asked.request);
@@ -89,13 +91,13 @@ Json warnings_of(const Comparison& c, const ComparisonRequest& asked) {
     told = std::move(why);
   }
   if (count == 0) return all;
-  all.push_back({{"kind", "long_step"},
-                 {"message", fmt::format("in {} of {} runs, with the largest step in {} with dt = {:g}, {}", count,
-                                         c.points.size(), longest->method, longest->dt, told)}});
+  all.push_back({"long_step", fmt::format("in {} of {} runs, with the largest step in {} with dt = {:g}, {}", count,
+                                          c.points.size(), longest->method, longest->dt, told)});
   return all;
 }
 
-Json json_of(const Comparison& c, const std::string& status, const ComparisonRequest& asked) {
+Json json_of(const Comparison& c, const std::string& status, const ComparisonRequest& asked,
+             const std::vector<Warning>& warnings) {
   // More digits than a JSON number may be read with: texts.
   const std::size_t n = c.reference.end.size() / 2;
   const auto part = [&](std::size_t first) {
@@ -131,7 +133,7 @@ Json json_of(const Comparison& c, const std::string& status, const ComparisonReq
     all["winners"].back()["second"] = w.second;
     all["winners"].back()["second_work"] = w.second_work;
   }
-  all["warnings"] = warnings_of(c, asked);
+  all["warnings"] = JsonWriter::written(warnings);
   return all;
 }
 
@@ -148,9 +150,9 @@ ComparisonReport compare_methods(const ComparisonRequest& request,
     report.message = "every run failed; the first: " + points.at(0).failure;
     report.hint = hint_of(points.at(0), request);
   }
-  const Json json = json_of(report.comparison, report.status, request);
-  report.json = json_text(json);
-  report.warnings = warning_lines(json);
+  const std::vector<Warning> warnings = warnings_of(report.comparison, request);
+  report.json = json_text(json_of(report.comparison, report.status, request, warnings));
+  report.warnings = warning_lines(warnings);
   report.csv = comparison_csv(report.comparison);
   report.text = comparison_table(report.comparison);
   return report;

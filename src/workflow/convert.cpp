@@ -10,9 +10,9 @@
 #include "figure_kinds.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/digits.hpp"
+#include "json_text.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
-#include "summary.hpp"
 
 namespace hamflow {
 

@@ -11,12 +11,12 @@
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/workflow/convert.hpp"
+#include "json_text.hpp"
 #include "run_copy.hpp"
 #include "run_description.hpp"
 #include "run_file.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
-#include "summary.hpp"
 
 namespace hamflow {
 

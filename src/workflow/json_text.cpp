@@ -8,6 +8,8 @@ std::string written_json(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+std::string json_text(const nlohmann::ordered_json& json) { return written_json(json, 2) + "\n"; }
+
 nlohmann::ordered_json read_json(const std::string& text) { return nlohmann::ordered_json::parse(text); }
 
 nlohmann::ordered_json read_if_json(const std::string& text) {

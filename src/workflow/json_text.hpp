@@ -8,6 +8,8 @@ namespace hamflow {
 
 /// @param indent of each level; -1: one line. What is no UTF-8 is replaced.
 std::string written_json(const nlohmann::ordered_json& json, int indent = -1);
+/// As files and --json have it: each key on a line of its own.
+std::string json_text(const nlohmann::ordered_json& json);
 /// @throws nlohmann::json::exception what is no JSON
 nlohmann::ordered_json read_json(const std::string& text);
 /// The same, discarded where it is no JSON.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <cstdlib>
 #include <optional>
 
 #include "hamflow/arithmetic/mp.hpp"
@@ -176,39 +176,39 @@ class Orbit {
 struct Found {
   std::optional<Mp> r_min, r_max, circular_radius, apsidal_angle, radial_period;
 };
-constexpr std::pair<const char*, std::optional<Mp> Found::*> orbit_entries[] = {
-    {"r_min", &Found::r_min},
-    {"r_max", &Found::r_max},
-    {"circular_radius", &Found::circular_radius},
-    {"apsidal_angle", &Found::apsidal_angle},
-    {"radial_period", &Found::radial_period}};
+struct OrbitEntry {
+  const char* name;
+  std::optional<Mp> Found::*found;
+  LongNumber OrbitSummary::*number;
+};
+constexpr OrbitEntry orbit_entries[] = {{"r_min", &Found::r_min, &OrbitSummary::r_min},
+                                        {"r_max", &Found::r_max, &OrbitSummary::r_max},
+                                        {"circular_radius", &Found::circular_radius, &OrbitSummary::circular_radius},
+                                        {"apsidal_angle", &Found::apsidal_angle, &OrbitSummary::apsidal_angle},
+                                        {"radial_period", &Found::radial_period, &OrbitSummary::radial_period}};
 
 /// @param integrals the apsidal angle and the radial period too
-Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tolerance, bool integrals) {
-  const auto near = [&](const char* name) -> std::optional<double> {
-    const auto& x = known[name];
-    if (!x.is_number() || !std::isfinite(x.get<double>()) || !(x.get<double>() > 0)) return std::nullopt;
-    return x.get<double>();
-  };
+Found found_of(Orbit& orbit, const OrbitSummary& known, const Mp& tolerance, bool integrals) {
+  const auto is_near = [](double x) { return std::isfinite(x) && x > 0; };
+  const double r_min = known.r_min, r_max = known.r_max, circle = known.circular_radius;
   Found found;
-  const auto r_min = near("r_min"), r_max = near("r_max"), circle = near("circular_radius");
-  if (circle) found.circular_radius = orbit.circular_radius(Mp(*circle));
-  if (known["type"] == "circle" || orbit.momentum() == Mp(0)) {
+  if (is_near(circle)) found.circular_radius = orbit.circular_radius(Mp(circle));
+  if (known.type == "circle" || orbit.momentum() == Mp(0)) {
     // A circle, to the digits of the run, where V_eff has its extremum at the start.
     if (found.circular_radius && abs(*found.circular_radius - orbit.radius()) <= tolerance * orbit.radius()) {
       found.r_min = found.r_max = orbit.radius();
     }
     return found;
   }
-  if (r_min) found.r_min = orbit.turning_point(Mp(*r_min));
-  if (r_max) found.r_max = orbit.turning_point(Mp(*r_max));
+  if (is_near(r_min)) found.r_min = orbit.turning_point(Mp(r_min));
+  if (is_near(r_max)) found.r_max = orbit.turning_point(Mp(r_max));
   if (!integrals) return found;
-  if (found.r_min && found.r_max && near("radial_period") && *found.r_min < *found.r_max) {
+  if (found.r_min && found.r_max && is_near(known.radial_period) && *found.r_min < *found.r_max) {
     if (const auto both = orbit.between(*found.r_min, *found.r_max, tolerance)) {
       found.radial_period = Mp(2) * both->first;
       found.apsidal_angle = both->second;
     }
-  } else if (found.r_min && !r_max && near("apsidal_angle")) {
+  } else if (found.r_min && !is_near(r_max) && is_near(known.apsidal_angle)) {
     found.apsidal_angle = orbit.to_infinity(*found.r_min, tolerance);
   }
   return found;
@@ -231,8 +231,7 @@ class Digits {
 
 /// What moving the energy and the angular momentum by a part of |T| + |V| and of itself makes of each entry, over that
 /// part; 0 where it is not known.
-std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& scenario,
-                                                              const nlohmann::ordered_json& known) {
+std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& scenario, const OrbitSummary& known) {
   Digits in(scenario, 20);
   const Mp part = power_of_ten(-12);
   const Found found = found_of(in.orbit, known, in.tolerance, true);
@@ -244,7 +243,7 @@ std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& sc
   const Found with_momentum = found_of(by_momentum, known, in.tolerance, true);
   std::array<double, std::size(orbit_entries)> all{};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto value = orbit_entries[i].second;
+    const auto value = orbit_entries[i].found;
     const auto &x = found.*value, &a = with_energy.*value, &b = with_momentum.*value;
     if (x && a && b) all[i] = static_cast<double>((abs(*a - *x) + abs(*b - *x)) / part);
   }
@@ -253,26 +252,24 @@ std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& sc
 
 }  // namespace
 
-void add_orbit_digits(const Scenario& scenario, nlohmann::ordered_json& orbit) {
+void add_orbit_digits(const Scenario& scenario, OrbitSummary& orbit) {
   const int digits = std::min(digits_beyond_double(scenario.request.arithmetic), most_digits);
-  const nlohmann::ordered_json known = orbit;
+  const OrbitSummary known = orbit;
   const auto changes = changes_by_start(scenario, known);
-  orbit["uncertainty"] = nlohmann::ordered_json::object();
+  for (const OrbitEntry& entry : orbit_entries) orbit.uncertainty.emplace_back(entry.name, std::nullopt);
   const auto add = [&](int in_digits, bool integrals) {
     Digits in(scenario, in_digits);
     const Found found = found_of(in.orbit, known, in.tolerance, integrals);
     for (std::size_t i = 0; i < changes.size(); ++i) {
-      const auto [name, value] = orbit_entries[i];
-      const std::optional<Mp>& x = found.*value;
-      if (!x || !(changes[i] > 0)) {
-        if (!orbit["uncertainty"].contains(name)) orbit["uncertainty"][name] = nullptr;
-        continue;
-      }
+      const std::optional<Mp>& x = found.*orbit_entries[i].found;
+      if (!x || !(changes[i] > 0)) continue;
       const double size = static_cast<double>(abs(*x));
       const double moved = std::pow(10.0, -digits) * changes[i] + std::pow(10.0, -in_digits) * size;
-      orbit["uncertainty"][name] = std::max(moved, std::numeric_limits<double>::min());  // it is not 0
+      orbit.uncertainty[i].second = std::max(moved, std::numeric_limits<double>::min());  // it is not 0
       const MpDigits rounded(in_digits);
-      orbit[name] = written_digits(*x + Mp(0));
+      LongNumber& number = orbit.*orbit_entries[i].number;
+      number.text = written_digits(*x + Mp(0));
+      number.value = std::strtod(number.text.c_str(), nullptr);
     }
   };
   if (digits > most_digits_of_integrals) {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "summary.hpp"
+#include "json_text.hpp"
 
 namespace hamflow {
 

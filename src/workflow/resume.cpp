@@ -148,15 +148,16 @@ void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const
         [&](const fs::path& file) { return refused_csv(file, checkpoint.csv_bytes, checkpoint.csv_hash); });
 }
 
-std::optional<std::string> own_summary(const Checkpoint& checkpoint, const fs::path& folder) {
-  const auto text = text_of(folder / "summary.json");
-  return text && checkpoint.summary_hash == hash_of(*text) ? text : std::nullopt;
+std::optional<KeptSummary> own_summary(const Checkpoint& checkpoint, const fs::path& folder) {
+  auto text = text_of(folder / "summary.json");
+  if (!text || checkpoint.summary_hash != hash_of(*text)) return std::nullopt;
+  Summary summary = read_summary(*text);
+  return KeptSummary{std::move(*text), std::move(summary)};
 }
 
-bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const std::string& summary) {
-  const auto own = read_json(summary);
-  if (own.value("status", "") != "done") return false;  // its certificate may have been stopped
-  if (own.contains("stopped_by")) return true;          // an event ended the run: no step follows
+bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const Summary& own) {
+  if (own.status != "done") return false;  // its certificate may have been stopped
+  if (own.stopped_by) return true;         // an event ended the run: no step follows
   return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps;
 }
 

@@ -26,11 +26,16 @@ inline bool has_only_begun(const Checkpoint& checkpoint) { return checkpoint.sim
 /// missing. @throws FileError
 void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const std::filesystem::path& folder);
 
-/// The summary of the folder if it is, to the last byte, the one that the run left.
-std::optional<std::string> own_summary(const Checkpoint& checkpoint, const std::filesystem::path& folder);
+/// summary.json of a folder, and what it says.
+struct KeptSummary {
+  std::string json;
+  Summary summary;
+};
+/// That of the folder if it is, to the last byte, the one that the run left.
+std::optional<KeptSummary> own_summary(const Checkpoint& checkpoint, const std::filesystem::path& folder);
 
 /// Whether the run was carried through to the last step of the scenario, by its own summary.
-bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const std::string& summary);
+bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const Summary& own);
 
 /// A summary that is another run's is not replaced. One of the same run that was changed, or is older, may be.
 /// @param own a summary of this run, as JSON   @throws FileError

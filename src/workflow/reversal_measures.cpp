@@ -2,11 +2,9 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "hamflow/run/gas.hpp"
 #include "hamflow/verify/magnitude.hpp"
-#include "number_text.hpp"
 
 namespace hamflow {
 
@@ -67,16 +65,13 @@ double digits_lost(const Reversal& reversal, const std::string& arithmetic) {
   return log10_of(lost) - log10_of_unit(arithmetic);
 }
 
-nlohmann::ordered_json return_error(const Reversal& reversal, std::size_t bodies) {
+ReturnError return_error(const Reversal& reversal, std::size_t bodies) {
   const auto n = static_cast<double>(bodies);
   const Frame& a = reversal.end;
   const Frame& b = reversal.start;
-  const auto in_q = [&](double divisor) { return json_of(difference_over(a.q, b.q, a.digits.q, b.digits.q, divisor)); };
-  const auto in_p = [&](double divisor) { return json_of(difference_over(a.p, b.p, a.digits.p, b.digits.p, divisor)); };
-  return {{"position", in_q(n)},
-          {"momentum", in_p(n)},
-          {"position_rms", in_q(std::sqrt(n))},
-          {"momentum_rms", in_p(std::sqrt(n))}};
+  const auto in_q = [&](double divisor) { return difference_over(a.q, b.q, a.digits.q, b.digits.q, divisor); };
+  const auto in_p = [&](double divisor) { return difference_over(a.p, b.p, a.digits.p, b.digits.p, divisor); };
+  return {in_q(n), in_p(n), in_q(std::sqrt(n)), in_p(std::sqrt(n))};
 }
 
 }  // namespace hamflow

@@ -1,10 +1,9 @@
 // What a reversal lost, in numbers: digits, and of bodies the errors in the measure of Sonnleitner2010, p. 72.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
+#include "hamflow/workflow/reverse.hpp"
 
 namespace hamflow {
 
@@ -15,8 +14,6 @@ std::size_t bodies_in(const Scenario& scenario);
 /// came back.
 double digits_lost(const Reversal& reversal, const std::string& arithmetic);
 
-/// {`position`, `momentum`: sqrt(sum |difference|^2)/N; `position_rms`, `momentum_rms`: sqrt(sum |difference|^2/N)},
-/// over N bodies.
-nlohmann::ordered_json return_error(const Reversal& reversal, std::size_t bodies);
+ReturnError return_error(const Reversal& reversal, std::size_t bodies);
 
 }  // namespace hamflow

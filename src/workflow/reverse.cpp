@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
@@ -18,13 +17,13 @@
 #include "reverse_file.hpp"
 #include "run_description.hpp"
 #include "summary.hpp"
+#include "summary_fields.hpp"
 #include "wall_checks.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
 
 namespace {
-using Json = nlohmann::ordered_json;
 
 bool rejects_steps(const Scenario& scenario) {
   const auto walls = walls_among(scenario.request.variant);
@@ -124,12 +123,19 @@ std::vector<std::string> shown(std::vector<std::string> texts, const std::string
   return texts;
 }
 
-/// Above as many coordinates as run prints, where it stands: a group of reverse.h5; null where none is kept.
-Json state(const Frame& frame, const std::string& arithmetic, const char* dataset, bool kept) {
-  if (frame.q.size() > most_named_coordinates) return {{"dataset", kept ? Json(dataset) : Json(nullptr)}};
-  if (!frame.digits.q.empty())
-    return {{"q", shown(frame.digits.q, arithmetic)}, {"p", shown(frame.digits.p, arithmetic)}};
-  return {{"q", frame.q}, {"p", frame.p}};
+/// @param dataset of reverse.h5 with it, where one is kept; else empty
+StateSummary state(const Frame& frame, const std::string& arithmetic, const char* dataset) {
+  StateSummary all;
+  all.is_large = frame.q.size() > most_named_coordinates;
+  if (all.is_large) {
+    all.dataset = dataset;
+    return all;
+  }
+  all.q = frame.q;
+  all.p = frame.p;
+  all.digits.q = shown(frame.digits.q, arithmetic);
+  all.digits.p = shown(frame.digits.p, arithmetic);
+  return all;
 }
 
 /// Watches the way there alone: on the way back every coordinate turns with the momenta.
@@ -148,139 +154,177 @@ class WayThere final : public Observer {
 };
 
 /// What is nonsense about the motion that was reversed. Both ways count where the way back is the same motion.
-Json warnings_about(const Scenario& scenario, const Simulation& simulation, const Reversal& r, bool same_motion,
-                    const Excursion& there, const TurnWatch& turns) {
-  Json known = Json::object();
-  if (scenario.problem->describe_orbit) known["orbit"] = orbit_of(scenario);
-  return warnings_of(scenario, known, same_motion ? simulation.energy() : there, r.turn, &turns,
-                     simulation.wall_counts(), 2 * r.steps);
+std::vector<Warning> warnings_about(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
+                                    bool same_motion, const Excursion& there, const TurnWatch& turns) {
+  std::optional<OrbitSummary> orbit;
+  if (scenario.problem->describe_orbit) orbit = orbit_of(scenario);
+  return warnings_of(scenario, {.energy = same_motion ? simulation.energy() : there,
+                                .end = r.turn,
+                                .orbit = orbit ? &*orbit : nullptr,
+                                .turns = &turns,
+                                .walls = simulation.wall_counts(),
+                                .steps = 2 * r.steps});
 }
 
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
 
-/// Of each group of numbers that share a unit.
-Json distances_json(const std::vector<GroupDistance>& distances) {
-  Json all = Json::array();
-  for (const GroupDistance& each : distances) {
-    all.push_back({{"of", each.name},
-                   {"distance", json_of(each.distance)},
-                   {"size", each.size},
-                   {"relative", json_of(each.relative)}});
+BodiesReturned bodies_returned(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
+                               std::size_t bodies) {
+  const bool done = r.outcome == Outcome::done;
+  BodiesReturned all;
+  if (done) all.error = return_error(r, bodies);
+  const Effort effort = simulation.effort();
+  // A way that failed at once has taken none.
+  const bool by_forces_alone = (effort.force > 0 || !done) && effort.gradient == 0 && effort.hessian == 0;
+  if (r.steps > 0 && !by_forces_alone) {
+    if (effort.force > 0) all.force_evaluations = effort.force;
+    all.note = fmt::format(other_than_forces, describe(scenario.request.method).name);
+  } else if (scenario.request.parameters.contains(GasKeys::cutoff)) {
+    all.force_evaluations = effort.force;
+    all.note = uncounted_pairs;
+  } else {
+    all.pair_evaluations = effort.force * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
   }
   return all;
 }
 
 /// @param kept whether reverse.h5 has the states
-Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report, const Json& warnings,
-             bool kept) {
-  const Reversal& r = report.reversal;
-  const MethodInfo method = describe(scenario.request.method);
-  const bool done = r.outcome == Outcome::done;
-  Json s{{"status", status_of(r.outcome)},
-         {"problem", scenario.request.problem},
-         {"method", method.name},
-         {"arithmetic", scenario.request.arithmetic},
-         {"dt", scenario.dt},
-         {"steps", r.steps},
-         {"start", state(r.start, scenario.request.arithmetic, "/start", kept)},
-         {"returned", done ? state(r.end, scenario.request.arithmetic, "/end", kept) : Json(nullptr)},
-         {"distance", done ? json_of(r.distance) : Json(nullptr)},
-         {"relative_distance", done ? json_of(r.relative_distance) : Json(nullptr)},
-         {"distances", done ? distances_json(r.distances) : Json(nullptr)},
-         {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},
-         {"hash",
-          {{"start", hex(r.start_hash)},
-           {"turn", done ? Json(hex(r.turn_hash)) : Json(nullptr)},
-           {"end", done ? Json(hex(r.end_hash)) : Json(nullptr)}}},
-         {"method_reversible", method.reversible},
-         {"expected_bit_exact", report.expected_bit_exact},
-         {"note", report.note},
-         {"digits_lost", done ? Json(digits_lost(r, scenario.request.arithmetic)) : Json(nullptr)}};
+ReversalSummary summary_of(const Scenario& scenario, const Simulation& simulation, const Reversal& r, bool kept) {
+  const Request& request = scenario.request;
+  const MethodInfo method = describe(request.method);
+  ReversalSummary s;
+  s.status = status_of(r.outcome);
+  s.problem = request.problem;
+  s.method = method.name;
+  s.arithmetic = request.arithmetic;
+  s.dt = scenario.dt;
+  s.steps = r.steps;
+  s.start = state(r.start, request.arithmetic, kept ? "/start" : "");
+  s.start_hash = hex(r.start_hash);
+  s.method_reversible = method.reversible;
+  if (r.outcome == Outcome::done) {
+    s.returned = state(r.end, request.arithmetic, kept ? "/end" : "");
+    s.distance = r.distance;
+    s.relative_distance = r.relative_distance;
+    s.distances = r.distances;
+    s.bit_exact = r.bit_exact;
+    s.turn_hash = hex(r.turn_hash);
+    s.end_hash = hex(r.end_hash);
+    s.digits_lost = digits_lost(r, request.arithmetic);
+  }
   if (const std::size_t bodies = bodies_in(scenario); bodies > 0) {
-    s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
-    const Effort effort = simulation.effort();
-    const std::int64_t forces = effort.force;
-    // A way that failed at once has taken none.
-    const bool by_forces_alone = (forces > 0 || !done) && effort.gradient == 0 && effort.hessian == 0;
-    const bool ends = scenario.request.parameters.contains(GasKeys::cutoff);
-    if (r.steps > 0 && !by_forces_alone) {
-      s["pair_evaluations"] = nullptr;
-      s["force_evaluations"] = forces > 0 ? Json(forces) : Json(nullptr);
-      s["pair_evaluations_note"] = fmt::format(other_than_forces, method.name);
-    } else if (ends) {
-      s["pair_evaluations"] = nullptr;
-      s["force_evaluations"] = forces;
-      s["pair_evaluations_note"] = uncounted_pairs;
-    } else {
-      s["pair_evaluations"] = forces * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
-    }
+    s.bodies = bodies_returned(scenario, simulation, r, bodies);
   }
-  s["warnings"] = warnings;
-  if (s["status"] == "failed") {
-    RunResult result;
-    result.outcome = r.outcome;
-    result.failure = r.failure;
-    s["error"] = summary_of(scenario, simulation, result)["error"];
-  }
+  if (s.status == "failed") s.error = error_of(scenario, simulation, {.outcome = r.outcome, .failure = r.failure});
   return s;
-}
-
-std::string readable_reversal(const Json& s) {
-  const auto row = [](std::string_view label, const std::string& text) {
-    return fmt::format("{:<20}{}\n", label, text);
-  };
-  const auto list = [](const Json& xs) {
-    constexpr std::size_t most_shown = 60;
-    if (xs.size() > most_shown) return fmt::format("{} numbers (--json prints them)", xs.size());
-    return joined(xs, [](const Json& x) { return number_text(x, "{:.17g}"); });
-  };
-  std::string text = row("status", s["status"].get<std::string>()) + row("problem", s["problem"].get<std::string>());
-  text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
-                                    s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
-  text += row("steps", fmt::format("{} there, {} back", s["steps"].get<long long>(), s["steps"].get<long long>()));
-  const auto state_rows = [&](const std::string& label, const Json& at) {
-    if (at.contains("q")) return row(label + " q", list(at["q"])) + row(label + " p", list(at["p"]));
-    return row(label, at["dataset"].is_null() ? "kept nowhere: --out DIR keeps it in reverse.h5"
-                                              : at["dataset"].get<std::string>() + " of reverse.h5");
-  };
-  text += state_rows("start", s["start"]);
-  if (!s["returned"].is_null()) {
-    text += state_rows("returned", s["returned"]);
-    constexpr std::size_t most_groups = 4;
-    Json groups = s["distances"];
-    if (groups.size() > most_groups) {  // that which is furthest off
-      std::erase_if(groups.get_ref<Json::array_t&>(),
-                    [&](const Json& each) { return each["relative"] != s["relative_distance"]; });
-      groups.get_ref<Json::array_t&>().resize(1);
-    }
-    text += row("distance", joined(groups, [](const Json& each) {
-                  return fmt::format("{} {} ({} of its size along the motion)", each["of"].get<std::string>(),
-                                     number_text(each["distance"], "{:.3g}"), number_text(each["relative"], "{:.3g}"));
-                }));
-    text += row("digits lost", fmt::format("{:.2f}", s["digits_lost"].get<double>()));
-    if (s.contains("return_error")) {
-      const auto counted = [&](const char* key, const char* what) {
-        const bool is_known = s.contains(key) && !s[key].is_null();
-        return is_known ? fmt::format("; {} {}", s[key].get<std::int64_t>(), what) : "";
-      };
-      const std::string effort =
-          counted("pair_evaluations", "pairs computed") + counted("force_evaluations", "force evaluations");
-      text += row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N){}",
-                                              number_text(s["return_error"]["position"], "{:.3g}"),
-                                              number_text(s["return_error"]["momentum"], "{:.3g}"), effort));
-    }
-    text += row("every bit", s["bit_exact"].get<bool>() ? "yes" : "no");
-    text +=
-        row("hash of the bits", fmt::format("{} -> {} -> {}", s["hash"]["start"].get<std::string>(),
-                                            s["hash"]["turn"].get<std::string>(), s["hash"]["end"].get<std::string>()));
-  }
-  if (!s["note"].get<std::string>().empty()) text += row("note", s["note"].get<std::string>());
-  return text;
 }
 
 }  // namespace
 
+template <class Ar>
+void fields(Ar& ar, GroupDistance& x) {
+  ar("of", x.name, "distance", x.distance, "size", x.size, "relative", x.relative);
+}
+
+template <class Ar>
+void fields(Ar& ar, ReturnError& x) {
+  ar("position", x.position, "momentum", x.momentum, "position_rms", x.position_rms, "momentum_rms", x.momentum_rms);
+}
+
+/// The stored bits of the three states.
+struct StateHashes {
+  std::string &start, &turn, &end;
+};
+template <class Ar>
+void fields(Ar& ar, StateHashes& x) {
+  ar("start", x.start);
+  ar.text_or_null("turn", x.turn);
+  ar.text_or_null("end", x.end);
+}
+
+template <class Ar>
+void fields(Ar& ar, ReversalSummary& x) {
+  StateHashes hashes{x.start_hash, x.turn_hash, x.end_hash};
+  ar("status", x.status, "problem", x.problem, "method", x.method, "arithmetic", x.arithmetic, "dt", x.dt, "steps",
+     x.steps, "start", x.start, "returned", x.returned, "distance", x.distance, "relative_distance",
+     x.relative_distance, "distances", x.distances, "bit_exact", x.bit_exact, "hash", hashes, "method_reversible",
+     x.method_reversible, "expected_bit_exact", x.expected_bit_exact, "note", x.note, "digits_lost", x.digits_lost);
+  if constexpr (Ar::reading) {
+    if (ar.has("return_error")) x.bodies.emplace();
+  }
+  if (x.bodies) {
+    ar("return_error", x.bodies->error, "pair_evaluations", x.bodies->pair_evaluations);
+    if (!x.bodies->pair_evaluations) ar("force_evaluations", x.bodies->force_evaluations);
+    ar.if_any("pair_evaluations_note", x.bodies->note);
+  }
+  ar("warnings", x.warnings);
+  ar.if_any("error", x.error);
+}
+
+std::string reversal_json(const ReversalSummary& summary) { return json_text(JsonWriter::written(summary)); }
+
+std::string reversal_text(const ReversalSummary& s) {
+  std::string text;
+  const auto row = [&](const std::string& label, const std::string& line) {
+    text += fmt::format("{:<20}{}\n", label, line);
+  };
+  const auto list = [](const std::vector<double>& numbers, const std::vector<std::string>& digits) {
+    constexpr std::size_t most_shown = 60;
+    if (numbers.size() > most_shown) return fmt::format("{} numbers (--json prints them)", numbers.size());
+    return list_text(numbers, digits, "nan");
+  };
+  const auto state_rows = [&](const std::string& label, const StateSummary& at) {
+    if (at.is_large) {
+      return row(label,
+                 at.dataset.empty() ? "kept nowhere: --out DIR keeps it in reverse.h5" : at.dataset + " of reverse.h5");
+    }
+    row(label + " q", list(at.q, at.digits.q));
+    row(label + " p", list(at.p, at.digits.p));
+  };
+  row("status", s.status);
+  row("problem", s.problem);
+  row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s.method, s.dt, s.arithmetic));
+  row("steps", fmt::format("{} there, {} back", s.steps, s.steps));
+  state_rows("start", s.start);
+  if (s.returned) {
+    state_rows("returned", *s.returned);
+    constexpr std::size_t most_groups = 4;
+    std::vector<GroupDistance> groups = *s.distances;
+    if (groups.size() > most_groups) {  // the one that is furthest off
+      const auto furthest = std::ranges::find_if(groups, [&](const GroupDistance& each) {
+        return each.relative.value == s.relative_distance->value && each.relative.text == s.relative_distance->text;
+      });
+      groups = {furthest == groups.end() ? groups.front() : *furthest};
+    }
+    row("distance", joined(groups, [](const GroupDistance& each) {
+          return fmt::format("{} {} ({} of its size along the motion)", each.name, number_text(each.distance, "{:.3g}"),
+                             number_text(each.relative, "{:.3g}"));
+        }));
+    row("digits lost", fmt::format("{:.2f}", *s.digits_lost));
+    if (s.bodies) {
+      const auto counted = [](const std::optional<std::int64_t>& count, const char* what) {
+        return count ? fmt::format("; {} {}", *count, what) : "";
+      };
+      row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N){}{}",
+                                      number_text(s.bodies->error->position, "{:.3g}"),
+                                      number_text(s.bodies->error->momentum, "{:.3g}"),
+                                      counted(s.bodies->pair_evaluations, "pairs computed"),
+                                      counted(s.bodies->force_evaluations, "force evaluations")));
+    }
+    row("every bit", *s.bit_exact ? "yes" : "no");
+    row("hash of the bits", fmt::format("{} -> {} -> {}", s.start_hash, s.turn_hash, s.end_hash));
+  }
+  if (!s.note.empty()) row("note", s.note);
+  return text;
+}
+
 namespace {
+
+void describe(ReversalReport& report) {
+  report.status = report.summary.status;
+  report.warnings = warning_lines(report.summary.warnings);
+  report.text = reversal_text(report.summary);
+}
 
 ReversalReport report_of(const Scenario& scenario, const Simulation& simulation, Reversal reversal,
                          const Excursion& there, const TurnWatch& turns, bool kept) {
@@ -312,20 +356,20 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }
-  const Json json =
-      json_of(scenario, simulation, report, warnings_about(scenario, simulation, r, same_motion, there, turns), kept);
-  report.warnings = warning_lines(json);
-  report.status = json["status"].get<std::string>();
-  if (json.contains("error")) {
-    report.message = json["error"]["message"].get<std::string>();
-    report.hint = json["error"]["hint"].get<std::string>();
+  report.summary = summary_of(scenario, simulation, r, kept);
+  report.summary.expected_bit_exact = report.expected_bit_exact;
+  report.summary.note = report.note;
+  report.summary.warnings = warnings_about(scenario, simulation, r, same_motion, there, turns);
+  report.json = reversal_json(report.summary);
+  describe(report);
+  if (report.summary.error) {
+    report.message = report.summary.error->message;
+    report.hint = report.summary.error->hint;
     if (!parity.is_defined) {
       report.message = why_not_reversed(parity);
       report.hint = "to go back along this motion, begin at its end with the other sign of dt";
     }
   }
-  report.json = json_text(json);
-  report.text = readable_reversal(json);
   return report;
 }
 
@@ -359,12 +403,10 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
       note("the reversal is complete: there is nothing to do");
       ReversalReport report;
       report.json = *kept;
-      const Json json = read_json(*kept);
-      report.status = json["status"].get<std::string>();
-      report.expected_bit_exact = json["expected_bit_exact"].get<bool>();
-      report.note = json["note"].get<std::string>();
-      report.warnings = warning_lines(json);
-      report.text = readable_reversal(json);
+      JsonReader::read(read_json(*kept), report.summary);
+      report.expected_bit_exact = report.summary.expected_bit_exact;
+      report.note = report.summary.note;
+      describe(report);
       return report;
     }
   }

@@ -5,25 +5,21 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "gnuplot.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
-#include "json_text.hpp"
 #include "resume.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
 #include "scenario_edit.hpp"
 #include "summary.hpp"
-#include "warnings.hpp"
 
 namespace hamflow {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 void note(const RunSettings& settings, const std::string& text) {
   if (settings.note) settings.note(text);
@@ -102,7 +98,7 @@ class ScenarioRun {
         write_checkpoint(settings.folder / "checkpoint.bin", *begin_);
         last = &*begin_;
       } else {
-        check_summary(json_text(summary_of(scenario_, *simulation_, RunResult{})), settings.folder);
+        check_summary(summary_json(summary_of(scenario_, *simulation_, RunResult{})), settings.folder);
       }
       recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, last->identity, from,
                                              [this] { simulation_->restart_energy_range(); });
@@ -166,24 +162,21 @@ class ScenarioRun {
       certificate_stopped_ = scenario_.certificate && reversal && reversal->was_stopped;
       if (certificate_stopped_) result.outcome = Outcome::stopped;  // what is left of the run is its certificate
     }
-    Json summary =
+    report.summary =
         summary_of(scenario_, *simulation_, result, certificate ? &*certificate : nullptr, &*measures_, &turns_);
-    if (scenario_.certificate) report.certificate = std::move(certificate);
-    if (summary["final"].contains("dataset") && !keeps_final_state()) {
-      summary["final"]["dataset"] = nullptr;
+    if (report.summary.final.is_large && !keeps_final_state()) {
+      report.summary.final.dataset.clear();
       if (writes()) {
-        summary["warnings"].push_back(
-            {{"kind", "final_state"},
-             {"message",
-              "the last state has too many numbers for a summary, and no file holds it: samples are not kept as "
-              "HDF5, or at times of run.record that end before the run"}});
+        report.summary.warnings.push_back(
+            {"final_state",
+             "the last state has too many numbers for a summary, and no file holds it: samples are not kept as "
+             "HDF5, or at times of run.record that end before the run"});
       }
     }
     report.file_trouble = result.file_trouble;
     report.outcome = result.outcome;
-    report.wall_seconds = result.wall_seconds;
-    report.json = json_text(summary);
-    describe(summary, report);
+    report.json = summary_json(report.summary);
+    describe(report);
     if (writes()) {
       finish_folder(report);
     } else if (recorder_) {
@@ -193,12 +186,12 @@ class ScenarioRun {
   }
 
   /// Of a run that had come to its end: what the checkpoint holds, and the summary that it left.
-  RunReport complete(const std::string& json) {
+  RunReport complete(KeptSummary kept) {
     RunReport report;
     report.was_complete = true;
-    report.wall_seconds = seconds_before_;
-    report.json = json;
-    describe(read_json(json), report);
+    report.summary = std::move(kept.summary);
+    report.json = std::move(kept.json);
+    describe(report);
     return report;
   }
 
@@ -249,19 +242,22 @@ class ScenarioRun {
     return result;
   }
 
-  void describe(const Json& summary, RunReport& report) const {
-    report.status = summary["status"].get<std::string>();
-    if (summary.contains("error")) {
-      report.message = summary["error"]["message"].get<std::string>();
-      report.hint = summary["error"]["hint"].get<std::string>();
-      report.details = summary["error"].value("details", "");
+  void describe(RunReport& report) const {
+    const Summary& summary = report.summary;
+    report.status = summary.status;
+    if (summary.error) {
+      report.message = summary.error->message;
+      report.hint = summary.error->hint;
+      report.details = summary.error->details;
     }
     simulation_->look(report.final);
     report.energy = simulation_->energy();
     report.energy_scale = simulation_->energy_scale();
     report.invariants = simulation_->invariants();
-    report.warnings = warning_lines(summary);
-    report.text = readable(summary);
+    report.certificate = summary.certificate;
+    report.wall_seconds = summary.wall_seconds;
+    report.warnings = warning_lines(summary.warnings);
+    report.text = summary_text(summary);
   }
 
   void finish_folder(RunReport& report) {
@@ -311,9 +307,9 @@ RunReport run(const Scenario& requested, const RunSettings& settings) {
     note(settings, "the run was stopped before its first checkpoint: it starts from the beginning");
     return ScenarioRun(requested, settings, folder, &*from).carry_out();
   }
-  const auto summary = own_summary(*from, settings.folder);
-  if (summary && is_complete(requested, *from, *summary)) {
-    RunReport report = ScenarioRun(requested, settings, nullptr, &*from).complete(*summary);
+  std::optional<KeptSummary> kept = own_summary(*from, settings.folder);
+  if (kept && is_complete(requested, *from, kept->summary)) {
+    RunReport report = ScenarioRun(requested, settings, nullptr, &*from).complete(std::move(*kept));
     if (has_its_figures(requested, settings.folder)) {
       note(settings, "the run is complete: there is nothing to do");
     } else {

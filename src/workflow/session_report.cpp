@@ -1,6 +1,5 @@
 // The summary and the folder that a session leaves.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "csv_file.hpp"
 #include "hamflow/workflow/session.hpp"
@@ -8,48 +7,25 @@
 #include "run_description.hpp"
 #include "run_file.hpp"
 #include "summary.hpp"
-#include "warnings.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json summary(const Session& session, const SessionOutcome& last) {
+Summary session_summary(const Session& session, const SessionOutcome& last) {
   RunResult result;
   result.outcome = last.outcome;
   if (is_failure(last.outcome)) result.failure = cause_of(session.failure());
   result.wall_seconds = last.wall_seconds;
   result.steps_taken = session.step();
-  Json all = summary_of(session.present(), session, result, nullptr, nullptr, &session.turns());
-  if (session.changes().empty()) return all;
-  all["changes"] = Json::array();
-  for (const SessionChange& c : session.changes()) {
-    all["changes"].push_back({{"step", c.step}, {"t", c.time}, {"what", c.what}});
-  }
-  all.erase("diagnostics");  // they count steps of the last part
+  Summary all = summary_of(session.present(), session, result, nullptr, nullptr, &session.turns());
+  all.changes = session.changes();
+  if (all.changes.empty()) return all;
+  all.diagnostics.reset();  // they count steps of the last part
   if (session.reversed()) {
-    for (const char* of_the_start : {"exact", "bodies"}) all.erase(of_the_start);
+    all.exact.reset();  // both are of the start
+    all.bodies.clear();
   }
   return all;
-}
-
-}  // namespace
-
-std::string session_summary(const Session& session, const SessionOutcome& last) {
-  return json_text(summary(session, last));
-}
-
-std::vector<std::string> session_warnings(const Session& session, const SessionOutcome& last) {
-  return warning_lines(summary(session, last));
-}
-
-std::pair<std::string, std::string> session_failure(const Session& session, const SessionOutcome& last) {
-  const Json all = summary(session, last);
-  if (!all.contains("error")) return {};
-  return {all["error"]["message"].get<std::string>(), all["error"]["hint"].get<std::string>()};
 }
 
 void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,
@@ -85,7 +61,7 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
     csv.flush();
     text.put_in_place();
   }
-  folder.write("summary.json", session_summary(session, last));
+  folder.write("summary.json", summary_json(session_summary(session, last)));
 }
 
 }  // namespace hamflow

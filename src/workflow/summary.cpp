@@ -6,11 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <variant>
 
 #include "bounce_names.hpp"
-#include "certificate_json.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
@@ -22,7 +20,6 @@
 #include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/state_units.hpp"
-#include "json_text.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
 #include "orbit_digits.hpp"
@@ -32,25 +29,32 @@
 namespace hamflow {
 
 namespace {
-using Json = nlohmann::ordered_json;
 
-Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e.final}, {"max_error", e.max_error}}; }
+/// Sets a value under its name, as the last one where there is none of that name.
+void set(Value::Table& table, const std::string& name, Value value) {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const auto& each) { return each.first == name; });
+  if (found == table.end()) {
+    table.emplace_back(name, std::move(value));
+  } else {
+    found->second = std::move(value);
+  }
+}
 
 /// @param exponent what that of the walls is called
-void add_walls(const Walls& walls, const std::string& exponent, Json& parameters) {
+void add_walls(const Walls& walls, const std::string& exponent, Value::Table& parameters) {
   const WallKeys& keys = wall_keys();
-  Json all = Json::array();
+  Value::List all;
   for (const Walls::Interval& wall : walls.intervals) {
-    Json interval{{keys.coordinate.name, wall.coordinate}};
-    if (!wall.min.empty()) interval[keys.min.name] = number_value(wall.min);
-    if (!wall.max.empty()) interval[keys.max.name] = number_value(wall.max);
-    all.push_back(interval);
+    Value::Table interval{{keys.coordinate.name, wall.coordinate}};
+    if (!wall.min.empty()) set(interval, keys.min.name, number_value(wall.min));
+    if (!wall.max.empty()) set(interval, keys.max.name, number_value(wall.max));
+    all.emplace_back(std::move(interval));
   }
-  parameters[keys.walls.name] = all;
-  parameters[keys.wall_rule.name] = wall_rules()[static_cast<std::size_t>(walls.rule)];
+  set(parameters, keys.walls.name, std::move(all));
+  set(parameters, keys.wall_rule.name, wall_rules()[static_cast<std::size_t>(walls.rule)]);
   if (walls.hard()) return;
-  parameters[keys.strength.name] = number_value(walls.strength);
-  parameters[exponent] = number_value(walls.exponent);
+  set(parameters, keys.strength.name, number_value(walls.strength));
+  set(parameters, exponent, number_value(walls.exponent));
 }
 
 bool has_parameter(const ProblemEntry& problem, const std::string& name) {
@@ -58,8 +62,8 @@ bool has_parameter(const ProblemEntry& problem, const std::string& name) {
   return std::any_of(all.begin(), all.end(), [&](const ParameterInfo& parameter) { return parameter.name == name; });
 }
 
-Json parameters_of(const Scenario& scenario) {
-  Json parameters = Json::object();
+Value::Table parameters_of(const Scenario& scenario) {
+  Value::Table parameters;
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
   const std::map<std::string, std::string> choices(scenario.problem->info.variant.begin(),
                                                    scenario.problem->info.variant.end());
@@ -69,12 +73,12 @@ Json parameters_of(const Scenario& scenario) {
     // Those of the problem `formula` are its texts, which the scenario has; the values of parameters stand below.
     if (scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters) continue;
     const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
-    parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
+    set(parameters, key, is_number ? Value(std::stoi(value)) : Value(value));
   }
   if (const auto walls = walls_among(scenario.request.variant)) {
     if (scenario.request.problem == GasKeys::problem && without.at(GasKeys::container) == ContainerNames::box) {
-      parameters[wall_keys().wall_rule.name] =
-          wall_rules()[static_cast<std::size_t>(walls->rule)];  // the box says the rest
+      // The box says the rest.
+      set(parameters, wall_keys().wall_rule.name, wall_rules()[static_cast<std::size_t>(walls->rule)]);
     } else {
       // A gas in a soft circle has an exponent of its own, that of its container.
       const std::string& exponent = wall_keys().exponent.name;
@@ -87,58 +91,48 @@ Json parameters_of(const Scenario& scenario) {
     const std::vector<double>& list = values.list(parameter.name);
     const bool single =
         parameter.type == OptionType::number || (parameter.type == OptionType::number_or_list && list.size() == 1);
-    parameters[parameter.name] = single && parameter.range.whole ? Json(static_cast<std::int64_t>(list[0]))
-                                 : single                        ? Json(list[0])
-                                                                 : Json(list);
+    set(parameters, parameter.name,
+        single && parameter.range.whole ? Value(static_cast<std::int64_t>(list[0]))
+        : single                        ? Value(list[0])
+                                        : Value(list));
   }
   if (!scenario.problem->info.frame.name.empty()) {
-    parameters[scenario.problem->info.frame.name] =
-        scenario.request.start.barycentric ? StartFrames::barycentric : StartFrames::given;
+    set(parameters, scenario.problem->info.frame.name,
+        scenario.request.start.barycentric ? StartFrames::barycentric : StartFrames::given);
   }
   if (structure) {
-    parameters["structure"] = {{"separable", structure->separable},
-                               {"quadratic_kinetic", structure->quadratic_kinetic},
-                               {"time", structure->time}};
+    set(parameters, "structure",
+        Value::Table{{"separable", structure->separable},
+                     {"quadratic_kinetic", structure->quadratic_kinetic},
+                     {"time", structure->time}});
   }
   return parameters;
 }
 
 /// The least and largest of each over every step, with the time at the end of that step.
-Json diagnostics_of(const StepDiagnostics& d, double dt) {
-  const auto extremes = [&](const StepDiagnostics::Extremes& e) -> Json {
-    if (!(e.least <= e.most)) return nullptr;  // no step yet
-    return {{"min", e.least},
-            {"t_min", static_cast<double>(e.step_of_least) * dt},
-            {"max", e.most},
-            {"t_max", static_cast<double>(e.step_of_most) * dt}};
+DiagnosticsSummary diagnostics_of(const StepDiagnostics& d, double dt) {
+  const auto range = [&](const StepDiagnostics::Extremes& e) -> std::optional<DiagnosticRange> {
+    if (!(e.least <= e.most)) return std::nullopt;  // no step yet
+    return DiagnosticRange{e.least, static_cast<double>(e.step_of_least) * dt, e.most,
+                           static_cast<double>(e.step_of_most) * dt};
   };
-  return {{"condition_tangent", extremes(d.of_condition_tangent)},
-          {"determinant_tangent", extremes(d.of_determinant_tangent)},
-          {"condition_inverse_mass", extremes(d.of_condition_inverse_mass)}};
+  return {range(d.of_condition_tangent), range(d.of_determinant_tangent), range(d.of_condition_inverse_mass)};
 }
 
 /// The two bodies in space, from the planar state.
-Json bodies_of(const Scenario& scenario, const Frame& frame) {
+std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   const auto& to_plane = scenario.problem->to_reference;
   const Frame planar = to_plane ? to_plane(scenario.request.parameters, frame.q, frame.p) : frame;
   const auto [first, second] = scenario.bodies->at(frame.time, {planar.q[0], planar.q[1]}, {planar.p[0], planar.p[1]});
-  Json all = Json::array();
-  for (const Body& body : {first, second}) {
-    all.push_back({{"mass", body.mass},
-                   {"position", std::vector<double>(body.position.begin(), body.position.end())},
-                   {"velocity", std::vector<double>(body.velocity.begin(), body.velocity.end())}});
-  }
-  return all;
+  return {first, second};
 }
 
 /// The state that follows from the energy of a start, in the digits of the run.
-Json start_of(const Scenario& scenario) {
-  if (digits_beyond_double(scenario.request.arithmetic) == 0) {
-    return {{"q", scenario.start_q}, {"p", scenario.start_p}};
-  }
+StateSummary start_of(const Scenario& scenario) {
+  if (digits_beyond_double(scenario.request.arithmetic) == 0) return {scenario.start_q, scenario.start_p};
   Frame frame;
   make_simulation(scenario.request)->look(frame);
-  return {{"q", frame.digits.q}, {"p", frame.digits.p}};
+  return {frame.q, frame.p, frame.digits};
 }
 
 /// phi is known up to whole turns: the one next to another value is meant.
@@ -229,7 +223,7 @@ StateSizes sizes_of_exact(const Scenario& scenario, const Frame& end) {
 
 /// The exact state at the time reached, and how far the run is from it, by groups of numbers with one unit. It is known
 /// in double: of a run in more digits that is no further off nothing is said but how well it is known.
-std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
+std::optional<ExactSummary> exact_of(const Scenario& scenario, const Frame& frame) {
   auto exact = scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, frame.time);
   if (!exact) return std::nullopt;
   Frame reached;  // in double
@@ -240,22 +234,23 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   const std::vector<GroupDistance> distances =
       group_distances(groups, sizes_of_exact(scenario, *exact), reached, *exact);
   std::size_t furthest = 0;  // beside its size
-  Json differences = Json::object();
+  Named<double> differences;
   for (std::size_t g = 0; g < distances.size(); ++g) {
-    differences[distances[g].name] = distances[g].distance.value;
+    differences.emplace_back(distances[g].name, distances[g].distance.value);
     if (!(distances[g].relative.value <= distances[furthest].relative.value)) furthest = g;
   }
-  Json found{{"q", exact->q},
-             {"p", exact->p},
-             {"max_difference", distances[furthest].distance.value},
-             {"relative_difference", distances[furthest].relative.value},
-             {"differences", differences}};
+  ExactSummary found{.q = exact->q,
+                     .p = exact->p,
+                     .max_difference = distances[furthest].distance.value,
+                     .relative_difference = distances[furthest].relative.value,
+                     .differences = std::move(differences),
+                     .uncertainty = {}};
   if (frame.digits.q.empty()) return found;
   const std::vector<double> uncertainty = uncertainty_of_exact(scenario, frame.time, *exact, groups);
   for (const double x : uncertainty) {
     if (!std::isfinite(x)) return std::nullopt;
   }
-  found["uncertainty"] = uncertainty[furthest];
+  found.uncertainty = uncertainty[furthest];
   return found;
 }
 
@@ -307,167 +302,167 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
   return text;
 }
 
-namespace {
-
 /// What was computed is kept; here is how to look at it and how to go on.
-Json error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
+RunError error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
   Frame frame;
   simulation.look(frame);
   if (!result.file_trouble.empty()) {
-    return {{"kind", "file"},
-            {"step", frame.step},
-            {"t", frame.time},
-            {"message", result.file_trouble},
-            {"hint", "make room, or write elsewhere with --out; the samples up to the last flush are kept"}};
+    return {"file",
+            frame.step,
+            frame.time,
+            result.file_trouble,
+            "make room, or write elsewhere with --out; the samples up to the last flush are kept",
+            {}};
   }
   const bool says_more =
       result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
   const bool own_words = says_more && !result.failure.empty();
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
-  const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
-                                       own_words ? cause_of(result.failure) : std::string(message(result.outcome)));
-  Json error = {
-      {"kind", std::string(name(result.outcome))},
-      {"step", step},
-      {"t", frame.time},
-      {"message", text},
-      {"hint", hint_for(scenario.request, differentiates_steps(scenario), result.outcome, cause_of(result.failure))}};
-  if (const std::string numbers = numbers_of(result.failure); own_words && !numbers.empty()) error["details"] = numbers;
-  return error;
+  return {std::string(name(result.outcome)),
+          step,
+          frame.time,
+          fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
+                      own_words ? cause_of(result.failure) : std::string(message(result.outcome))),
+          hint_for(scenario.request, differentiates_steps(scenario), result.outcome, cause_of(result.failure)),
+          own_words ? numbers_of(result.failure) : std::string()};
 }
-}  // namespace
 
 std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
 
-Json orbit_of(const Scenario& scenario) {
-  Json facts = Json::object();
-  for (const auto& [name, value] :
-       scenario.problem->describe_orbit(scenario.request.parameters, scenario.start_q, scenario.start_p)) {
-    std::visit([&, key = name](const auto& x) { facts[key] = x; }, value);
-    if (name == "type") facts["conic"] = nullptr;  // where none follows
-  }
-  if (digits_beyond_double(scenario.request.arithmetic) > 0) add_orbit_digits(scenario, facts);
-  return facts;
+OrbitSummary orbit_of(const Scenario& scenario) {
+  const OrbitFacts facts =
+      scenario.problem->describe_orbit(scenario.request.parameters, scenario.start_q, scenario.start_p);
+  const auto take = [&]<class T>(std::string_view name, T& x) {
+    for (const auto& [key, value] : facts) {
+      const T* const found = key == name ? std::get_if<T>(&value) : nullptr;
+      if (found == nullptr) continue;
+      x = *found;
+      return true;
+    }
+    return false;
+  };
+  OrbitSummary orbit;
+  take("type", orbit.type);
+  take("conic", orbit.conic);
+  take("r_min", orbit.r_min.value);
+  take("r_max", orbit.r_max.value);
+  take("circular_radius", orbit.circular_radius.value);
+  if (bool stable = false; take("circular_stable", stable)) orbit.circular_stable = stable;
+  take("apsidal_angle", orbit.apsidal_angle.value);
+  take("radial_period", orbit.radial_period.value);
+  take("closed", orbit.closed);
+  take("revolutions", orbit.revolutions);
+  take("radial_periods", orbit.radial_periods);
+  take("falls_into_centre", orbit.falls_into_centre);
+  if (digits_beyond_double(scenario.request.arithmetic) > 0) add_orbit_digits(scenario, orbit);
+  return orbit;
 }
 
-Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                const RunCertificate* certificate, const Measures* measures, const TurnWatch* turns) {
-  Frame frame;
-  simulation.look(frame);
-  const Effort effort = simulation.effort();
-  const Excursion energy = simulation.energy();
-  const double scale = energy.scale();
-  Json s;
-  s["status"] = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
-  s["problem"] = scenario.request.problem;
-  s["method"] = describe(scenario.request.method).name;
-  s["arithmetic"] = scenario.request.arithmetic;
-  s["kernel"] = scenario.request.kernel;
-  if (scenario.request.kernel == "fast") s["instruction_set"] = std::string(fast_instruction_set(scenario.request));
-  if (scenario.request.arithmetic == "lattice") {
-    s["lattice"] = {{"position", scenario.request.position_unit}, {"momentum", scenario.request.momentum_unit}};
-  }
-  s["parameters"] = parameters_of(scenario);
-  s["dt"] = scenario.dt;
-  s["steps"] = simulation.step();
-  if (!scenario.request.start.energy.empty()) s["start"] = start_of(scenario);
-  s["final"] = {{"t", frame.time}, {"q", frame.q}, {"p", frame.p}};
-  s["energy"] = excursion(energy);
-  s["energy"]["scale"] = scale;
-  s["energy"]["max_relative_error"] = energy.max_error / scale;
+StateAtTime state_at(double t, std::vector<double> q, std::vector<double> p, FrameDigits digits) {
+  return {{std::move(q), std::move(p), std::move(digits)}, t};
+}
+
+StopSummary stop_summary(const std::string& name, const MemberStop& stop) {
+  return {state_at(stop.t, stop.q, stop.p, stop.digits), name};
+}
+
+InvariantSummary invariant_summary(const InvariantInfo& info, InvariantExcursion seen) {
+  const bool one =
+      info.components == Components::one || (info.components == Components::rotations && seen.initial.size() == 1);
+  return {info.name, !one, std::move(seen)};
+}
+
+std::optional<LongNumber> InvariantSummary::max_error() const {
+  // The largest deviation is one of those that are numbers: of what was none it says nothing.
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  const bool known = std::ranges::all_of(seen.initial, is_number) && std::ranges::all_of(seen.final, is_number);
+  return known ? std::optional(largest_error(seen)) : std::nullopt;
+}
+
+static EnergySummary energy_of(const Scenario& scenario, const Excursion& seen, const FrameDigits& digits,
+                               const RunCertificate* certificate) {
+  const double scale = seen.scale();
+  EnergySummary energy{with_digits(seen.initial, digits.initial_energy), with_digits(seen.final, digits.energy),
+                       seen.max_error, scale, LongNumber(seen.max_error / scale)};
   // Where H is 0 at the start, or nothing but rounding, there is nothing that an error could be a part of.
   const bool is_zero = scale == 0 || (certificate != nullptr && std::isnan(certificate->energy_level.value));
-  if (is_zero) s["energy"]["max_relative_error"] = energy.max_error == 0 ? Json(0.0) : Json(nullptr);
-  if (scenario.map) s["energy"]["scale"] = s["energy"]["max_relative_error"] = nullptr;
-  if (!frame.digits.q.empty()) {  // more digits than a JSON number may be read with: texts; errors need no more
-    s["final"] = {{"t", frame.digits.time}, {"q", frame.digits.q}, {"p", frame.digits.p}};
-    s["energy"]["initial"] = frame.digits.initial_energy;
-    s["energy"]["final"] = frame.digits.energy;
+  if (is_zero) energy.max_relative_error = seen.max_error == 0 ? std::optional(LongNumber(0)) : std::nullopt;
+  if (scenario.map) {
+    energy.scale = std::nullopt;
+    energy.max_relative_error = std::nullopt;
   }
+  if (certificate != nullptr && seen.max_error == 0 && !certificate->energy_level.text.empty()) {
+    // No double is so small: what the certificate found.
+    energy.max_relative_error = certificate->energy_level;
+    energy.max_error = times(scale, certificate->energy_level.text);
+  }
+  return energy;
+}
+
+Summary summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
+                   const RunCertificate* certificate, const Measures* measures, const TurnWatch* turns) {
+  const Request& request = scenario.request;
+  const ProblemEntry& problem = *scenario.problem;
+  const MethodInfo method = describe(request.method);
+  Frame frame;
+  simulation.look(frame);
+  Summary s;
+  s.status = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
+  s.problem = request.problem;
+  s.method = method.name;
+  s.arithmetic = request.arithmetic;
+  s.kernel = request.kernel;
+  if (request.kernel == "fast") s.instruction_set = fast_instruction_set(request);
+  if (request.arithmetic == "lattice") s.lattice = {request.position_unit, request.momentum_unit};
+  s.parameters = parameters_of(scenario);
+  s.dt = scenario.dt;
+  s.steps = simulation.step();
+  if (!request.start.energy.empty()) s.start = start_of(scenario);
+  s.energy = energy_of(scenario, simulation.energy(), frame.digits, certificate);
   if (scenario.hamiltonian) {  // the energy above is H less the work of the drive
     Frame start;
     start.q = scenario.start_q;
     start.p = scenario.start_p;
-    s["hamiltonian"] = {{"initial", scenario.hamiltonian->expression(start)},
-                        {"final", scenario.hamiltonian->expression(frame)}};
+    s.hamiltonian = {scenario.hamiltonian->expression(start), scenario.hamiltonian->expression(frame)};
   }
-  if (frame.q.size() > most_named_coordinates) {
-    const bool gas = scenario.request.problem == GasKeys::problem;
-    s["final"] = {{"t", s["final"]["t"]}, {"dataset", gas ? "/particles/all" : "/q, /p"}};
-  }
-  if (certificate != nullptr && energy.max_error == 0 && !certificate->energy_level.text.empty()) {
-    // No double is so small: what the certificate found.
-    const LongNumber& level = certificate->energy_level;
-    s["energy"]["max_relative_error"] = level.text;
-    s["energy"]["max_error"] = json_of(times(scale, level.text));
-  }
-  s["invariants"] = Json::object();
-  const std::vector<InvariantExcursion> invariants = simulation.invariants();
-  for (std::size_t i = 0; i < invariants.size(); ++i) {
-    const InvariantInfo& info = scenario.problem->info.invariants[i];
-    s["invariants"][info.name] = invariant_json(info, invariants[i]);
-  }
-  if (const auto residuals = simulation.constraints()) {
-    s["constraints"] = {{"position", residuals->position}, {"velocity", residuals->velocity}};
-  }
-  if (describe(scenario.request.method).diagnostics) {
-    s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);
-  }
-  if (scenario.bodies) s["bodies"] = bodies_of(scenario, frame);
-  if (scenario.problem->describe_orbit && !scenario.map) s["orbit"] = orbit_of(scenario);
-  if (scenario.problem->exact && !scenario.map) {
-    if (const auto exact = exact_of(scenario, frame)) s["exact"] = *exact;
-  }
-  s["evaluations"] = {{"force", effort.force},
-                      {"gradient", effort.gradient},
-                      {"hessian", effort.hessian},
-                      {"linear_solves", effort.linear_solves}};
-  if (describe(scenario.request.method).explicit_step) {
-    s["newton"] = nullptr;
+  s.final.is_large = frame.q.size() > most_named_coordinates;
+  if (s.final.is_large) {
+    s.final.t = frame.time;
+    s.final.digits.time = frame.digits.time;
+    s.final.dataset = request.problem == GasKeys::problem ? "/particles/all" : "/q, /p";
   } else {
+    s.final = state_at(frame.time, frame.q, frame.p, frame.digits);
+  }
+  for (std::size_t i = 0; InvariantExcursion & seen : simulation.invariants()) {
+    s.invariants.push_back(invariant_summary(problem.info.invariants[i++], std::move(seen)));
+  }
+  s.constraints = simulation.constraints();
+  if (method.diagnostics) s.diagnostics = diagnostics_of(simulation.diagnostics(), scenario.dt);
+  if (scenario.bodies) s.bodies = bodies_of(scenario, frame);
+  if (problem.describe_orbit && !scenario.map) s.orbit = orbit_of(scenario);
+  if (problem.exact && !scenario.map) s.exact = exact_of(scenario, frame);
+  s.effort = simulation.effort();
+  if (!method.explicit_step) {
     const double mean =
-        effort.steps > 0 ? static_cast<double>(effort.linear_solves) / static_cast<double>(effort.steps) : 0;
-    s["newton"] = {
-        {"min", effort.solves_min}, {"mean", mean}, {"max", effort.solves_max}, {"stagnated", effort.stagnated}};
-    if (const std::string iteration = chosen_iteration(scenario.request); !iteration.empty()) {
-      s["newton"]["iteration"] = iteration;
-    }
+        s.effort.steps > 0 ? static_cast<double>(s.effort.linear_solves) / static_cast<double>(s.effort.steps) : 0;
+    s.newton = {s.effort.solves_min, mean, s.effort.solves_max, s.effort.stagnated, chosen_iteration(request)};
   }
-  s["events"] = Json::object();
   const std::vector<std::string> walls = bounce_names(scenario);
-  std::map<std::string, std::int64_t> together;
-  for (std::size_t k = 0; const WallCount& wall : simulation.wall_counts()) {
+  for (std::size_t k = 0; const WallCount& wall : simulation.wall_counts()) {  // those of one name are counted together
     const std::string& name = walls.at(k++);
-    s["events"][name] = together[name] += wall.bounces;
+    const auto found = std::ranges::find(s.events, name, &std::pair<std::string, std::int64_t>::first);
+    (found != s.events.end() ? found->second : s.events.emplace_back(name, 0).second) += wall.bounces;
   }
-  if (describe(scenario.request.method).halves_steps) s["events"]["halved"] = effort.halved;
+  if (method.halves_steps) s.events.emplace_back("halved", s.effort.halved);
   if (measures != nullptr) measures->add_to(s);
-  s["warnings"] = warnings_of(scenario, s, simulation, turns,
-                              certificate != nullptr ? certificate->typically_exchanged : std::nullopt);
-  if (measures != nullptr) measures->add_warnings(s["warnings"]);
-  s["certificate"] = certificate != nullptr && scenario.certificate ? certificate_json(*certificate) : Json(nullptr);
-  s["wall_seconds"] = result.wall_seconds;
-  s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
-  if (s["status"] == "failed") s["error"] = error_of(scenario, simulation, result);
+  s.warnings = warnings_of(scenario, s, simulation, turns,
+                           certificate != nullptr ? certificate->typically_exchanged : std::nullopt);
+  if (measures != nullptr) measures->add_warnings(s.warnings);
+  if (certificate != nullptr && scenario.certificate) s.certificate = *certificate;
+  s.wall_seconds = result.wall_seconds;
+  s.steps_per_second = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
+  if (s.status == "failed") s.error = error_of(scenario, simulation, result);
   return s;
 }
-
-Json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen) {
-  const bool one =
-      info.components == Components::one || (info.components == Components::rotations && seen.initial.size() == 1);
-  const auto entry = [one](const std::vector<double>& numbers, const std::vector<std::string>& digits) {
-    if (digits.empty()) return one ? Json(numbers[0]) : Json(numbers);
-    return one ? Json(digits[0]) : Json(digits);  // more digits than a JSON number may be read with: texts
-  };
-  // The largest deviation is one of those that are numbers: of what was none it says nothing.
-  const auto is_number = [](double x) { return std::isfinite(x); };
-  const bool known = std::all_of(seen.initial.begin(), seen.initial.end(), is_number) &&
-                     std::all_of(seen.final.begin(), seen.final.end(), is_number);
-  return {{"initial", entry(seen.initial, seen.initial_digits)},
-          {"final", entry(seen.final, seen.final_digits)},
-          {"max_error", known ? json_of(largest_error(seen)) : Json(nullptr)}};
-}
-
-std::string json_text(const Json& json) { return written_json(json, 2) + "\n"; }
 
 }  // namespace hamflow

@@ -1,17 +1,18 @@
-// The summary of a run: what --json prints and summary.json holds.
+// How the summary of a run comes about.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/verify/turns.hpp"
+#include "hamflow/workflow/summary.hpp"
 
 namespace hamflow {
 
 class Measures;
+struct MemberStop;
 
 /// What the run itself found out.
 struct RunResult {
@@ -28,18 +29,20 @@ std::string status_of(Outcome outcome);
 inline bool differentiates_steps(const Scenario& scenario) { return scenario.lyapunov > 0 || scenario.eigenvalues; }
 /// The hint of the outcome, and what method, problem and the sentence about the failure add to it.
 std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure);
+/// The error of a run that failed.
+RunError error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result);
 /// What the effective potential tells of the start of a problem that describes its orbits.
-nlohmann::ordered_json orbit_of(const Scenario& scenario);
+OrbitSummary orbit_of(const Scenario& scenario);
+/// @param digits all of them, in arithmetic beyond double
+StateAtTime state_at(double t, std::vector<double> q, std::vector<double> p, FrameDigits digits);
+/// @param name of the event
+StopSummary stop_summary(const std::string& name, const MemberStop& stop);
+/// How an invariant with this declaration is reported.
+InvariantSummary invariant_summary(const InvariantInfo& info, InvariantExcursion seen);
 /// @param certificate null where nobody has watched   @param measures null where nothing was measured
 /// @param turns null where nobody has watched for long steps
-nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                                  const RunCertificate* certificate = nullptr, const Measures* measures = nullptr,
-                                  const TurnWatch* turns = nullptr);
-/// One invariant of a summary: a number, or a list where it has several components.
-nlohmann::ordered_json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen);
-/// The same summary for people.
-std::string readable(const nlohmann::ordered_json& summary);
-/// JSON as text, also of strings that are no UTF-8: names of files may be anything.
-std::string json_text(const nlohmann::ordered_json& json);
+Summary summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
+                   const RunCertificate* certificate = nullptr, const Measures* measures = nullptr,
+                   const TurnWatch* turns = nullptr);
 
 }  // namespace hamflow

@@ -2,156 +2,172 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "certificate_json.hpp"
 #include "hamflow/core/text.hpp"
-#include "json_text.hpp"
 #include "measures/measure.hpp"
 #include "number_text.hpp"
 #include "summary.hpp"
 
 namespace hamflow {
 
-nlohmann::ordered_json json_of(const LongNumber& x) {
-  return x.text.empty() ? nlohmann::ordered_json(x.value) : nlohmann::ordered_json(x.text);
-}
-
-nlohmann::ordered_json json_of(const std::string& event, const MemberStop& stop) {
-  const FrameDigits& digits = stop.digits;
-  if (digits.q.empty()) return {{"event", event}, {"t", stop.t}, {"q", stop.q}, {"p", stop.p}};
-  return {{"event", event}, {"t", digits.time}, {"q", digits.q}, {"p", digits.p}};
+LongNumber with_digits(double x, const std::string& digits) {
+  LongNumber number(x);
+  number.text = digits;
+  return number;
 }
 
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string number_text(const nlohmann::ordered_json& x, const char* form, const char* none) {
-  if (x.is_string()) return x.get<std::string>();
-  // A live summary holds what JSON writes as null: both have to read alike.
-  if (x.is_null() || !std::isfinite(x.get<double>())) return none;
-  return fmt::format(fmt::runtime(form), x.get<double>());
+std::string number_text(const LongNumber& x, const char* form, const char* none) {
+  if (!x.text.empty()) return x.text;
+  return std::isfinite(x.value) ? fmt::format(fmt::runtime(form), x.value) : none;
+}
+
+std::string list_text(const std::vector<double>& numbers, const std::vector<std::string>& digits, const char* none) {
+  if (!digits.empty()) return joined(digits);
+  return joined(numbers, [&](double x) { return number_text(x, "{:.17g}", none); });
 }
 
 namespace {
-using Json = nlohmann::ordered_json;
 
-std::string orbit_text(const Json& orbit) {
-  std::string text = orbit["type"].get<std::string>();
-  if (!orbit["conic"].is_null()) text += " (" + orbit["conic"].get<std::string>() + ")";
-  const auto number = [&](const char* key) { return number_text(orbit[key], "{:.6g}"); };
-  const auto is_finite = [](const Json& x) {
-    return x.is_string() || (!x.is_null() && std::isfinite(x.get<double>()));
-  };
-  const bool bounded = is_finite(orbit["r_max"]);
-  text += fmt::format(", r = {} .. {}, apsidal angle {}", number("r_min"), bounded ? number("r_max") : "inf",
-                      is_finite(orbit["apsidal_angle"]) ? number("apsidal_angle") : "infinite or not known");
-  if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
+/// In two digits: "0.25", "6.3", "100".
+std::string percent_of(double share) {
+  const double percent = 100 * share;
+  return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+}
+
+bool is_finite(const LongNumber& x) { return !x.text.empty() || std::isfinite(x.value); }
+
+std::string orbit_text(const OrbitSummary& orbit) {
+  const auto number = [](const LongNumber& x) { return number_text(x, "{:.6g}"); };
+  return orbit.type + (orbit.conic.empty() ? "" : " (" + orbit.conic + ")") +
+         fmt::format(", r = {} .. {}, apsidal angle {}", number(orbit.r_min),
+                     is_finite(orbit.r_max) ? number(orbit.r_max) : "inf",
+                     is_finite(orbit.apsidal_angle) ? number(orbit.apsidal_angle) : "infinite or not known") +
+         (orbit.falls_into_centre ? ", falls into the centre" : "");
+}
+
+std::string certificate_text(const RunCertificate& c) {
+  std::string text =
+      fmt::format("energy error {}: {}", c.drift.drift ? name(*c.drift.drift) : "undecided", c.drift.reason);
+  for (const MomentumMap& map : c.momentum_maps) {
+    if (!map.rounding) continue;
+    const std::optional<bool> conserved = map.conserved();
+    text += fmt::format("; {} {}", map.name,
+                        !conserved   ? "kept or not: its error may be of rounding or of the method"
+                        : *conserved ? "kept to rounding"
+                                     : "not kept");
+  }
+  if (const auto& back = c.reversal) {
+    text +=
+        fmt::format("; {} ({} % of the run) there and back{}: {}",
+                    counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
+                    back->proves == ReversalProof::nothing ? " prove nothing" : fmt::format(": {}", name(back->proves)),
+                    back->reason);
+  }
   return text;
 }
+
+/// What was watched over every step.
+std::string watched_text(const std::string& initial, const std::string& final,
+                         const std::optional<LongNumber>& max_error) {
+  const std::string ends = initial + " -> " + final + ", ";
+  if (!max_error || !is_finite(*max_error)) return ends + "how far off is not known";
+  return ends + "at most " + number_text(*max_error, "{:.3g}") + " off";
+}
+
+std::string invariant_text(const InvariantSummary& x) {
+  const auto shown = [&](const std::vector<double>& numbers, const std::vector<std::string>& digits) {
+    const std::string list = list_text(numbers, digits);
+    return x.is_list ? "[" + list + "]" : list;
+  };
+  return watched_text(shown(x.seen.initial, x.seen.initial_digits), shown(x.seen.final, x.seen.final_digits),
+                      x.max_error());
+}
+
+std::string exact_text(const ExactSummary& exact) {
+  const std::string off = joined(exact.differences, [](const auto& difference) {
+    return number_text(difference.second, "{:.3g}") + " (" + difference.first + ")";
+  });
+  if (exact.uncertainty && exact.max_difference <= *exact.uncertainty) {
+    return fmt::format("at most {} off the closed form, which is known to {:.2g} only", off, *exact.uncertainty);
+  }
+  return fmt::format("at most {} off the exact state", off);
+}
+
 }  // namespace
 
-std::string readable(const Json& s) {
-  const auto row = [](std::string_view label, const std::string& text) {
-    return fmt::format("{:<19} {}\n", label, text);
+std::string summary_text(const Summary& s) {
+  std::string text;
+  const auto row = [&](std::string_view label, const std::string& line) {
+    text += fmt::format("{:<19} {}\n", label, line);
   };
-  const auto number = [](const Json& x) { return value_text(x, "{:.17g}"); };
-  const auto list = [&](const Json& xs) { return joined(xs, number); };
-  const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
-  const auto watched = [&](const Json& x) {
-    const std::string ends = fmt::format("{} -> {}, ", shown(x["initial"]), shown(x["final"]));
-    const Json& off = x["max_error"];
-    if (off.is_null() || (off.is_number() && !std::isfinite(off.get<double>())))
-      return ends + "how far off is not known";
-    return ends + "at most " + number_text(off, "{:.3g}") + " off";
-  };
-  std::string text = row("status", s["status"].get<std::string>());
-  text += row("problem", s["problem"].get<std::string>());
-  text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
-                                    s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
-  text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
+  const auto number = [](const LongNumber& x) { return value_text(x, "{:.17g}"); };
+  row("status", s.status);
+  row("problem", s.problem);
+  row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s.method, s.dt, s.arithmetic));
+  row("steps", fmt::format("{}, t = {}", s.steps, number(time_of(s.final))));
   constexpr std::size_t most_shown = 60;
-  for (const char* const key : {"q", "p"}) {
-    if (!s["final"].contains(key)) continue;
-    const Json& numbers = s["final"][key];
-    text += row(std::string("final ") + key, numbers.size() <= most_shown
-                                                 ? list(numbers)
-                                                 : fmt::format("{} numbers (--json prints them)", numbers.size()));
+  const auto state_row = [&](const char* label, const std::vector<double>& numbers, const auto& digits) {
+    row(label, numbers.size() <= most_shown ? list_text(numbers, digits)
+                                            : fmt::format("{} numbers (--json prints them)", numbers.size()));
+  };
+  if (!s.final.is_large) {
+    state_row("final q", s.final.q, s.final.digits.q);
+    state_row("final p", s.final.p, s.final.digits.p);
   }
-  const Json& energy = s["energy"];
-  const bool has_scale = !energy["scale"].is_null() && energy["scale"].get<double>() > 0 &&
-                         (!energy["max_relative_error"].is_null() || energy["max_error"].is_null());
-  const bool driven = s.contains("hamiltonian");
-  if (driven) {
-    text += row("H(q, p, t)", number_text(s["hamiltonian"]["initial"], "{:.17g}") + " -> " +
-                                  number_text(s["hamiltonian"]["final"], "{:.17g}"));
+  const EnergySummary& energy = s.energy;
+  const bool is_relative = energy.scale && *energy.scale > 0 && energy.max_relative_error;
+  if (s.hamiltonian) {
+    row("H(q, p, t)",
+        number_text(s.hamiltonian->initial, "{:.17g}") + " -> " + number_text(s.hamiltonian->final, "{:.17g}"));
   }
-  text += row(driven ? "H - int dH/dt" : "energy",
-              watched(s["energy"]) + (has_scale ? fmt::format(" ({} of its scale)",
-                                                              number_text(s["energy"]["max_relative_error"], "{:.3g}"))
-                                                : " (not relative: H is 0 at the start)"));
-  for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
-  if (s.contains("constraints")) {
-    const Json& residuals = s["constraints"];
-    text += row("constraints", "|g| at most " + number_text(residuals["position"], "{:.3g}") +
-                                   ", |g' M^-1 p| at most " + number_text(residuals["velocity"], "{:.3g}"));
+  row(s.hamiltonian ? "H - int dH/dt" : "energy",
+      watched_text(number(energy.initial), number(energy.final), energy.max_error) +
+          (is_relative ? fmt::format(" ({} of its scale)", number_text(*energy.max_relative_error, "{:.3g}"))
+                       : " (not relative: H is 0 at the start)"));
+  for (const InvariantSummary& each : s.invariants) row(each.name, invariant_text(each));
+  if (s.constraints) {
+    row("constraints", "|g| at most " + number_text(s.constraints->position, "{:.3g}") + ", |g' M^-1 p| at most " +
+                           number_text(s.constraints->velocity, "{:.3g}"));
   }
-  if (s.contains("exact")) {
-    const Json& exact = s["exact"];
-    std::string off;
-    for (const auto& [name, difference] : exact["differences"].items()) {
-      off += (off.empty() ? "" : ", ") + number_text(difference, "{:.3g}") + " (" + name + ")";
-    }
-    const bool unknown = exact.contains("uncertainty") && !exact["max_difference"].is_null() &&
-                         exact["max_difference"].get<double>() <= exact["uncertainty"].get<double>();
-    text += row("exact", unknown ? fmt::format("at most {} off the closed form, which is known to {:.2g} only", off,
-                                               exact["uncertainty"].get<double>())
-                                 : fmt::format("at most {} off the exact state", off));
+  if (s.exact) row("exact", exact_text(*s.exact));
+  if (s.orbit) row("orbit", orbit_text(*s.orbit));
+  for (const Body& body : s.bodies) {
+    const auto list = [](const auto& x) { return list_text({x.begin(), x.end()}); };
+    row("body",
+        fmt::format("mass {}, at [{}], velocity [{}]", number(body.mass), list(body.position), list(body.velocity)));
   }
-  if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
-  if (s.contains("bodies")) {
-    for (const Json& body : s["bodies"]) {
-      text += row("body", fmt::format("mass {}, at [{}], velocity [{}]", number(body["mass"]), list(body["position"]),
-                                      list(body["velocity"])));
-    }
+  if (s.diagnostics) {
+    const auto range = [&](const char* label, const std::optional<DiagnosticRange>& x) {
+      if (!x) return;
+      row(label, fmt::format("{} (t = {:g}) .. {} (t = {:g})", number_text(x->min, "{:.6g}"), x->t_min,
+                             number_text(x->max, "{:.6g}"), x->t_max));
+    };
+    range("condition_tangent", s.diagnostics->condition_tangent);
+    range("determinant_tangent", s.diagnostics->determinant_tangent);
+    range("condition_M^-1", s.diagnostics->condition_inverse_mass);
   }
-  if (s.contains("diagnostics")) {
-    for (const auto& [key, x] : s["diagnostics"].items()) {
-      if (x.is_null()) continue;
-      text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key,
-                  fmt::format("{} (t = {:g}) .. {} (t = {:g})", number_text(x["min"], "{:.6g}"),
-                              x["t_min"].get<double>(), number_text(x["max"], "{:.6g}"), x["t_max"].get<double>()));
-    }
+  row("evaluations", fmt::format("force {}, gradient {}, Hessian {}, linear solves {}", s.effort.force,
+                                 s.effort.gradient, s.effort.hessian, s.effort.linear_solves));
+  if (const auto& newton = s.newton) {
+    row("Newton per step", fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", newton->min, newton->mean,
+                                       newton->max, newton->stagnated) +
+                               (newton->iteration.empty() ? "" : ", iteration " + newton->iteration));
   }
-  text +=
-      row("evaluations",
-          fmt::format("force {}, gradient {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),
-                      s["evaluations"]["gradient"].get<long long>(), s["evaluations"]["hessian"].get<long long>(),
-                      s["evaluations"]["linear_solves"].get<long long>()));
-  if (!s["newton"].is_null()) {
-    const std::string chosen =
-        s["newton"].contains("iteration") ? ", iteration " + s["newton"]["iteration"].get<std::string>() : "";
-    text += row("Newton per step",
-                fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", s["newton"]["min"].get<long long>(),
-                            s["newton"]["mean"].get<double>(), s["newton"]["max"].get<long long>(),
-                            s["newton"]["stagnated"].get<long long>()) +
-                    chosen);
-  }
-  for (const auto& [key, value] : s["events"].items()) text += row("event " + key, written_json(value));
-  if (s.contains("event_notes")) {
-    for (const Json& note : s["event_notes"]) text += row("event note", note.get<std::string>());
-  }
+  for (const auto& [name, count] : s.events) row("event " + name, std::to_string(count));
+  for (const std::string& note : s.event_notes) row("event note", note);
   for (const MeasureKind& kind : measure_kinds()) {
-    if (s.contains(kind.key)) text += row(kind.label, kind.text(s[kind.key]));
+    if (const std::string line = kind.text(s); !line.empty()) row(kind.label, line);
   }
-  if (s.contains("certificate") && !s["certificate"].is_null()) {
-    text += row("certificate", certificate_text(s["certificate"]));
-  } else if (s.contains("certificate") && !energy["scale"].is_null()) {  // a map has neither
-    text += row("certificate", "not asked for");
+  if (s.certificate) {
+    row("certificate", certificate_text(*s.certificate));
+  } else if (energy.scale) {  // a map has neither
+    row("certificate", "not asked for");
   }
-  text += row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s["wall_seconds"].get<double>(),
-                                       s["steps_per_second"].get<double>()));
+  row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s.wall_seconds, s.steps_per_second));
   return text;
 }
 

@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <limits>
 
+#include "json_text.hpp"
 #include "number_text.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
+#include "summary_fields.hpp"
 #include "sweep_table.hpp"
 
 namespace hamflow {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr std::size_t most_failures = 10;
 
 std::size_t count(const Sweep& sweep, Outcome status) {
@@ -28,17 +29,13 @@ std::size_t count_without_start(const Sweep& sweep) {
 }
 
 /// The first members that failed; behind those that broke off the ones without a start, of which there may be many.
-Json failures_of(const Sweep& sweep) {
-  Json all = Json::array();
+std::vector<MemberFailure> failures_of(const Sweep& sweep) {
+  std::vector<MemberFailure> all;
   for (const bool no_start : {false, true}) {
     for (std::size_t member = 0; member < sweep.members() && all.size() < most_failures; ++member) {
       const MemberRow& row = sweep.rows()[member];
       if (row.message.empty() || row.no_start != no_start) continue;
-      all.push_back({{"member", member},
-                     {"kind", row.status_name()},
-                     {"step", row.no_start ? 0 : row.steps + 1},
-                     {"t", row.t},
-                     {"message", row.message}});
+      all.push_back({member, row.status_name(), row.no_start ? 0 : row.steps + 1, row.t, row.message});
     }
   }
   return all;
@@ -46,175 +43,236 @@ Json failures_of(const Sweep& sweep) {
 
 /// Of all members together. That dt is long for an oscillation, or an orbit falls into the centre, is said by a run of
 /// a single member.
-Json sweep_warnings(const Sweep& sweep) {
+std::vector<Warning> sweep_warnings(const Sweep& sweep) {
   const auto is_nonsense = [](const MemberRow& row) { return row.nonsense; };
   const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_nonsense);
   const auto count = std::count_if(first, sweep.rows().end(), is_nonsense);
-  Json all = Json::array();
-  if (count == 0) return all;
-  all.push_back(
-      {{"kind", "energy_error"},
-       {"message",
-        fmt::format("the energy of {} of {} members was off by more than the motion exchanges, first of member "
-                    "{}: they are done, but no motion of {}; try a smaller dt",
-                    count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}});
-  return all;
+  if (count == 0) return {};
+  return {{"energy_error",
+           fmt::format("the energy of {} of {} members was off by more than the motion exchanges, first of member "
+                       "{}: they are done, but no motion of {}; try a smaller dt",
+                       count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}};
 }
 
-Json varied_of(const Sweep& sweep) {
-  Json varied = Json::object();
+Named<VariedKey> varied_of(const Sweep& sweep) {
+  Named<VariedKey> varied;
   const std::vector<Vary>& keys = sweep.varied().keys();
   for (std::size_t key = 0; key < keys.size(); ++key) {
     const Vary& vary = keys[key];
-    Json& entry = varied[vary.path];
-    entry["count"] = vary.formula.empty() ? vary.texts.size() : sweep.members();
+    VariedKey& entry = varied.emplace_back(vary.path, VariedKey{}).second;
+    entry.count = vary.formula.empty() ? vary.texts.size() : sweep.members();
     if (!vary.is_number()) {
-      entry["values"] = Json::array();
-      for (const std::string& text : vary.texts) entry["values"].push_back(without_quotes(text));
+      for (const std::string& text : vary.texts) entry.values.push_back(without_quotes(text));
       continue;
     }
-    entry["first"] = sweep.varied().number(0, key);
-    entry["last"] = sweep.varied().number(sweep.members() - 1, key);
-    if (!vary.formula.empty()) entry["formula"] = vary.formula;
+    entry.first = sweep.varied().number(0, key);
+    entry.last = sweep.varied().number(sweep.members() - 1, key);
+    entry.formula = vary.formula;
   }
   return varied;
 }
 
-/// What one key says of every member; null where it is varied: the summary's "varied" has it then.
-Json common_to_all(const Sweep& sweep, const std::string& path, const std::string& value) {
+/// What one key says of every member; nothing where it is varied.
+std::optional<std::string> common_to_all(const Sweep& sweep, const std::string& path, const std::string& value) {
   const std::vector<Vary>& keys = sweep.varied().keys();
   const bool is_varied = std::any_of(keys.begin(), keys.end(), [&](const Vary& key) { return key.path == path; });
-  return is_varied ? Json(nullptr) : Json(value);
+  return is_varied ? std::nullopt : std::optional(value);
+}
+
+Named<Value> varied_of_member(const Sweep& sweep, std::size_t member) {
+  Named<Value> all;
+  const Varied& varied = sweep.varied();
+  for (std::size_t key = 0; key < varied.size(); ++key) {
+    const Vary& vary = varied.keys()[key];
+    const std::string given = without_quotes(varied.text(member, key));
+    // A third is no double: beyond double the row gives what the member can be run again from.
+    const bool is_double =
+        vary.is_number() && (!sweep.beyond_double() || given == shortest(varied.number(member, key)));
+    all.emplace_back(vary.path, is_double ? Value(varied.number(member, key)) : Value(given));
+  }
+  return all;
+}
+
+Named<double> columns_of_member(const Sweep& sweep, std::size_t member) {
+  Named<double> all;
+  if (sweep.rows()[member].observables.empty() && !sweep.names().of(member).observables.empty())
+    return all;  // not done
+  for (const UnitedName& name : sweep.names().observables()) {
+    const double* const x = value_of(sweep, name, member, &MemberRow::observables);
+    all.emplace_back(name.name, x == nullptr ? std::numeric_limits<double>::quiet_NaN() : *x);
+  }
+  return all;
+}
+
+/// As in the summary of the single run.
+std::vector<ObservableSummary> observables_of_member(const Sweep& sweep, const Named<double>& columns) {
+  std::vector<ObservableSummary> all;
+  if (columns.empty()) return all;
+  for (const NamedExpression& observable : sweep.common().observables) {
+    const auto value = [&](const char* what) {
+      const auto column = std::ranges::find(columns, observable.name + what, &std::pair<std::string, double>::first);
+      return column != columns.end() ? column->second : std::numeric_limits<double>::quiet_NaN();
+    };
+    all.push_back({observable.name, value("_initial"), value("_mean"), value("_final")});
+  }
+  return all;
+}
+
+SweepRow sweep_row(const Sweep& sweep, std::size_t member) {
+  const MemberRow& row = sweep.rows()[member];
+  SweepRow all{.varied = varied_of_member(sweep, member),
+               .status = row.status_name(),
+               .steps = row.steps,
+               .message = row.message};
+  if (row.status == Outcome::not_run) return all;
+  all.final = state_at(row.t, row.q, row.p, row.digits);
+  all.energy = {with_digits(row.energy.initial, row.digits.initial_energy),
+                with_digits(row.energy.final, row.digits.energy), row.energy.max_error, row.energy.scale()};
+  const MemberNames& names = sweep.names().of(member);
+  for (const UnitedName& invariant : sweep.names().invariants()) {
+    const InvariantExcursion* const seen = value_of(sweep, invariant, member, &MemberRow::invariants);
+    auto& entry = all.invariants.emplace_back(invariant.name, std::nullopt).second;
+    if (seen == nullptr) continue;
+    entry = invariant_summary(names.invariants[sweep.names().places(invariant, member).front()], *seen);
+  }
+  for (const EventCount& event : events_of(sweep, member)) all.events.emplace_back(event.name, event.count);
+  all.event_notes = row.event_notes;
+  if (row.stopped_by) all.stopped_by = stop_summary(names.events.at(row.stopped_by->event), *row.stopped_by);
+  all.columns = columns_of_member(sweep, member);
+  all.observables = observables_of_member(sweep, all.columns);
+  if (sweep.common().section) {
+    all.section = {static_cast<std::int64_t>(row.section_points()), row.section_residual, row.section_message};
+  }
+  return all;
 }
 
 }  // namespace
 
-Json sweep_row(const Sweep& sweep, std::size_t member) {
-  const MemberRow& row = sweep.rows()[member];
-  Json json = Json::object();
-  const Varied& varied = sweep.varied();
-  for (std::size_t key = 0; key < varied.size(); ++key) {
-    const Vary& vary = varied.keys()[key];
-    const std::string text = varied.text(member, key);
-    json[vary.path] = vary.is_number() ? Json(varied.number(member, key)) : Json(without_quotes(text));
-    if (!vary.is_number() || !sweep.beyond_double()) continue;
-    // A third is no double: the row gives what the member can be run again from.
-    const std::string given = without_quotes(text);
-    if (given != shortest(varied.number(member, key))) json[vary.path] = given;
-  }
-  json["status"] = row.status_name();
-  json["steps"] = row.steps;
-  if (row.no_start) json["message"] = row.message;
-  if (row.status == Outcome::not_run) return json;
-  json["final"] = {{"t", row.t}, {"q", row.q}, {"p", row.p}};
-  json["energy"] = {{"initial", row.energy.initial},
-                    {"final", row.energy.final},
-                    {"max_error", row.energy.max_error},
-                    {"scale", row.energy.scale()}};
-  if (!row.digits.q.empty()) {  // more digits than a JSON number may be read with: texts
-    json["final"] = {{"t", row.digits.time}, {"q", row.digits.q}, {"p", row.digits.p}};
-    json["energy"]["initial"] = row.digits.initial_energy;
-    json["energy"]["final"] = row.digits.energy;
-  }
-  json["invariants"] = Json::object();
-  const MemberNames& names = sweep.names().of(member);
-  for (const UnitedName& invariant : sweep.names().invariants()) {
-    const InvariantExcursion* const seen = value_of(sweep, invariant, member, &MemberRow::invariants);
-    Json& entry = json["invariants"][invariant.name];
-    entry = {{"initial", nullptr}, {"final", nullptr}, {"max_error", nullptr}};
-    if (seen == nullptr) continue;
-    entry = invariant_json(names.invariants[sweep.names().places(invariant, member).front()], *seen);
-  }
-  json["events"] = Json::object();
-  for (const EventCount& event : events_of(sweep, member)) json["events"][event.name] = event.count;
-  if (!row.event_notes.empty()) json["event_notes"] = row.event_notes;
-  if (row.stopped_by) {
-    json["stopped_by"] = json_of(names.events.at(row.stopped_by->event), *row.stopped_by);
-  }
-  for (const UnitedName& observable : sweep.names().observables()) {
-    if (row.observables.empty() && !names.observables.empty()) break;  // not done
-    const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
-    json[observable.name] = x == nullptr ? Json(nullptr) : Json(*x);
-  }
-  for (const NamedExpression& observable : sweep.common().observables) {  // as in the summary of the single run
-    for (const char* what : {"initial", "mean", "final"}) {
-      const auto column = json.find(observable.name + "_" + what);
-      if (column != json.end()) json[output_keys().observables.name][observable.name][what] = Json(*column);
-    }
-  }
-  if (sweep.common().section) {
-    json["section"] = {{"points", row.section_points()}, {"max_residual", row.section_residual}};
-    if (!row.section_message.empty()) json["section"]["message"] = row.section_message;
-  }
-  if (!row.message.empty()) json["message"] = row.message;
-  return json;
-}
-
-Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
-  const std::size_t done = count(sweep, Outcome::done);
-  const std::size_t unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
-  const std::size_t failed = sweep.members() - done - unfinished;
+SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted, bool with_rows) {
   std::int64_t steps = 0;
   for (const MemberRow& row : sweep.rows()) steps += row.steps;
-  Json s;
-  s["status"] = interrupted && unfinished > 0 ? "interrupted" : done == 0 ? "failed" : "done";
-  s["problem"] = common_to_all(sweep, "problem.name", sweep.common().request.problem);
-  s["arithmetic"] = common_to_all(sweep, run_path(run_keys().arithmetic), sweep.common().request.arithmetic);
-  s["kernel"] = common_to_all(sweep, run_path(run_keys().kernel), sweep.common().request.kernel);
-  s["members"] = sweep.members();
-  s["done"] = done;
-  s["failed"] = failed;
-  s["unfinished"] = unfinished;
-  if (const std::size_t without = count_without_start(sweep); without > 0) s["no_start"] = without;
-  s["varied"] = varied_of(sweep);
-  s["wall_seconds"] = seconds;
-  s["member_steps_per_second"] = seconds > 0 ? static_cast<double>(steps) / seconds : 0.0;
-  s["members_per_second"] = seconds > 0 ? static_cast<double>(done + failed) / seconds : 0.0;
-  s["instruction_set"] = std::string(name(sweep.lanes()));
-  s["lanes"] = sweep.members_in_lanes() > 0 ? sweep.lane_count() : 1;
-  s["members_in_lanes"] = sweep.members_in_lanes();
-  if (sweep.beyond_double()) s["note"] = "members beyond double run one by one on the threads: lanes are for double";
-  s["threads"] = sweep.threads();
-  s["warnings"] = sweep_warnings(sweep);
+  SweepSummary s;
+  s.members = sweep.members();
+  s.done = count(sweep, Outcome::done);
+  s.unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
+  s.failed = s.members - s.done - s.unfinished;
+  s.no_start = count_without_start(sweep);
+  s.status = interrupted && s.unfinished > 0 ? "interrupted" : s.done == 0 ? "failed" : "done";
+  const Request& common = sweep.common().request;
+  s.problem = common_to_all(sweep, "problem.name", common.problem);
+  s.arithmetic = common_to_all(sweep, run_path(run_keys().arithmetic), common.arithmetic);
+  s.kernel = common_to_all(sweep, run_path(run_keys().kernel), common.kernel);
+  s.varied = varied_of(sweep);
+  s.wall_seconds = seconds;
+  s.member_steps_per_second = seconds > 0 ? static_cast<double>(steps) / seconds : 0.0;
+  s.members_per_second = seconds > 0 ? static_cast<double>(s.done + s.failed) / seconds : 0.0;
+  s.instruction_set = name(sweep.lanes());
+  s.lanes = sweep.members_in_lanes() > 0 ? sweep.lane_count() : 1;
+  s.members_in_lanes = sweep.members_in_lanes();
+  if (sweep.beyond_double()) s.note = "members beyond double run one by one on the threads: lanes are for double";
+  s.threads = sweep.threads();
+  s.warnings = sweep_warnings(sweep);
   if (sweep.common().section) {
-    std::size_t points = 0;
-    for (const MemberRow& row : sweep.rows()) points += row.section_points();
-    s["section"] = {{"points", points}};
+    s.section_points = 0;
+    for (const MemberRow& row : sweep.rows()) *s.section_points += row.section_points();
   }
-  s["failures"] = failures_of(sweep);
+  s.failures = failures_of(sweep);
+  const std::size_t rows = with_rows && s.members <= SweepSummary::most_rows ? s.members : 0;
+  for (std::size_t member = 0; member < rows; ++member) s.rows.push_back(sweep_row(sweep, member));
   return s;
 }
 
-std::string readable_sweep(const Json& s) {
+template <class Ar>
+void fields(Ar& ar, VariedKey& x) {
+  ar("count", x.count);
+  if (!x.first) return ar("values", x.values);
+  ar("first", x.first, "last", x.last);
+  ar.if_any("formula", x.formula);
+}
+
+template <class Ar>
+void fields(Ar& ar, MemberFailure& x) {
+  ar("member", x.member, "kind", x.kind, "step", x.step, "t", x.t, "message", x.message);
+}
+
+template <class Ar>
+void fields(Ar& ar, MemberEnergy& x) {
+  ar("initial", x.initial, "final", x.final, "max_error", x.max_error, "scale", x.scale);
+}
+
+/// Of a member that does not have an invariant.
+struct NoInvariant {
+  std::optional<double> nothing;
+};
+template <class Ar>
+void fields(Ar& ar, NoInvariant& x) {
+  for (const char* key : {"initial", "final", "max_error"}) ar(key, x.nothing);
+}
+
+template <class Ar>
+void fields(Ar& ar, SweepRow& x) {
+  for (auto& [path, value] : x.varied) ar(path, value);
+  ar("status", x.status, "steps", x.steps);
+  if (!x.final) return ar.if_any("message", x.message);
+  ar("final", x.final, "energy", x.energy);
+  Ar invariants;
+  for (auto& [name, seen] : x.invariants) {
+    if (seen) {
+      invariants(name, *seen);
+    } else {
+      invariants(name, NoInvariant());
+    }
+  }
+  ar("invariants", invariants.take(), "events", x.events);
+  ar.if_any("event_notes", x.event_notes);
+  ar.if_any("stopped_by", x.stopped_by);
+  for (auto& [name, value] : x.columns) ar(name, value);
+  if (!x.observables.empty()) ar.by_name(output_keys().observables.name, x.observables);
+  ar.if_any("section", x.section);
+  ar.if_any("message", x.message);
+}
+
+std::string sweep_json(const SweepSummary& x, bool with_rows) {
+  JsonWriter ar;
+  ar("status", x.status, "problem", x.problem, "arithmetic", x.arithmetic, "kernel", x.kernel, "members", x.members,
+     "done", x.done, "failed", x.failed, "unfinished", x.unfinished);
+  if (x.no_start > 0) ar("no_start", x.no_start);
+  ar("varied", x.varied, "wall_seconds", x.wall_seconds, "member_steps_per_second", x.member_steps_per_second,
+     "members_per_second", x.members_per_second, "instruction_set", x.instruction_set, "lanes", x.lanes,
+     "members_in_lanes", x.members_in_lanes);
+  ar.if_any("note", x.note);
+  ar("threads", x.threads, "warnings", x.warnings);
+  if (x.section_points) ar("section", Named<std::size_t>{{"points", *x.section_points}});
+  ar("failures", x.failures);
+  if (with_rows) ar.if_any("rows", x.rows);
+  return json_text(ar.take());
+}
+
+std::string sweep_text(const SweepSummary& s) {
   std::string text;
   const auto line = [&](std::string_view label, const std::string& what) {
     text += fmt::format("{:<20}{}\n", label, what);
   };
-  line("status", s["status"].get<std::string>());
-  line("members",
-       fmt::format("{} ({} done, {} failed, {} unfinished)", s["members"].get<std::size_t>(),
-                   s["done"].get<std::size_t>(), s["failed"].get<std::size_t>(), s["unfinished"].get<std::size_t>()));
-  if (s.contains("no_start")) {
-    line("no start", fmt::format("{} of the failed: the energy, or what a formula asks for, is out of reach",
-                                 s["no_start"].get<std::size_t>()));
+  line("status", s.status);
+  line("members", fmt::format("{} ({} done, {} failed, {} unfinished)", s.members, s.done, s.failed, s.unfinished));
+  if (s.no_start > 0) {
+    line("no start",
+         fmt::format("{} of the failed: the energy, or what a formula asks for, is out of reach", s.no_start));
   }
-  for (const auto& [path, entry] : s["varied"].items()) {
-    const auto count = entry["count"].get<std::size_t>();
-    std::string values = counted(count, "value");
-    if (entry.contains("first")) {
-      values += count == 1
-                    ? fmt::format(", {:g}", entry["first"].get<double>())
-                    : fmt::format(", first {:g}, last {:g}", entry["first"].get<double>(), entry["last"].get<double>());
+  for (const auto& [path, key] : s.varied) {
+    std::string values = counted(key.count, "value");
+    if (key.first) {
+      values += key.count == 1 ? fmt::format(", {:g}", *key.first)
+                               : fmt::format(", first {:g}, last {:g}", *key.first, *key.last);
     }
     line("varied", path + ": " + values);
   }
-  if (s.contains("section")) line("section", counted(s["section"]["points"].get<std::size_t>(), "point"));
-  line("lanes", fmt::format("{} ({}), {} in lanes, threads {}", s["lanes"].get<std::size_t>(),
-                            s["instruction_set"].get<std::string>(),
-                            counted(s["members_in_lanes"].get<std::size_t>(), "member"), s["threads"].get<int>()));
-  if (s.contains("note")) line("note", s["note"].get<std::string>());
-  line("wall time", fmt::format("{:.3g} s, {:.4g} member steps/s, {:.4g} members/s", s["wall_seconds"].get<double>(),
-                                s["member_steps_per_second"].get<double>(), s["members_per_second"].get<double>()));
+  if (s.section_points) line("section", counted(*s.section_points, "point"));
+  line("lanes", fmt::format("{} ({}), {} in lanes, threads {}", s.lanes, s.instruction_set,
+                            counted(s.members_in_lanes, "member"), s.threads));
+  if (!s.note.empty()) line("note", s.note);
+  line("wall time", fmt::format("{:.3g} s, {:.4g} member steps/s, {:.4g} members/s", s.wall_seconds,
+                                s.member_steps_per_second, s.members_per_second));
   return text;
 }
 

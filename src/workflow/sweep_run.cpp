@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/workflow/sweep.hpp"
-#include "json_text.hpp"
 #include "measures/measures.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
@@ -23,8 +21,6 @@ namespace hamflow {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-constexpr std::size_t most_rows_in_summary = 10000;
 
 LaneSet lanes_named(const std::string& name) {
   for (const LaneSet set : {LaneSet::none, LaneSet::generic, LaneSet::avx2, LaneSet::avx512}) {
@@ -57,7 +53,7 @@ bool decides_columns(const std::string& path) {
 
 /// Of members of a gas that are done, read anew, how many may have let particles pass through each other: told once,
 /// of the first.
-void add_passing(const Sweep& sweep, const SweepRequest& request, Json& warnings) {
+void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Warning>& warnings) {
   if (sweep.common().request.problem != GasKeys::problem) return;
   MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
   std::size_t count = 0;
@@ -81,8 +77,7 @@ void add_passing(const Sweep& sweep, const SweepRequest& request, Json& warnings
   }
   if (count == 0) return;
   warnings.push_back(
-      {{"kind", "long_step"},
-       {"message", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)}});
+      {"long_step", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)});
 }
 
 /// What is wrong with the request beside its scenario goes into `wrong`.
@@ -207,21 +202,21 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
   sweep.run(look, folder ? keep : std::function<void(std::size_t)>{});
   const double seconds =
       folder ? folder->seconds() : std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  Json summary = sweep_summary(sweep, seconds, stopped);
-  add_passing(sweep, impl_->request, summary["warnings"]);
   SweepReport report;
-  report.status = summary["status"].get<std::string>();
-  report.json = json_text(summary);
-  report.text = readable_sweep(summary);
-  report.warnings = warning_lines(summary);
-  for (const Json& failure : summary["failures"]) {
+  SweepSummary& summary = report.summary;
+  summary = sweep_summary(sweep, seconds, stopped, !folder);
+  add_passing(sweep, impl_->request, summary.warnings);
+  report.status = summary.status;
+  report.json = sweep_json(summary, false);
+  report.text = sweep_text(summary);
+  report.warnings = warning_lines(summary.warnings);
+  for (const MemberFailure& failure : summary.failures) {
     // That there is no start at an energy is seldom worth a line each, where other members have one.
-    if (failure["kind"] == "no_start" && summary["no_start"] != summary["members"]) continue;
-    report.failures.push_back(fmt::format("member {}, step {}: {}", failure["member"].get<std::size_t>(),
-                                          failure["step"].get<std::int64_t>(), failure["message"].get<std::string>()));
-    if (report.hint.empty() && failure["kind"] == name(Outcome::not_converged)) {
+    if (failure.kind == "no_start" && summary.no_start != summary.members) continue;
+    report.failures.push_back(fmt::format("member {}, step {}: {}", failure.member, failure.step, failure.message));
+    if (report.hint.empty() && failure.kind == name(Outcome::not_converged)) {
       report.hint = hint_for(sweep.common().request, differentiates_steps(sweep.common()), Outcome::not_converged,
-                             failure["message"].get<std::string>());
+                             failure.message);
     }
   }
   if (folder) folder->save(report.json);
@@ -237,15 +232,6 @@ std::vector<Complaint> ScenarioSweep::keep_in(const fs::path& folder, Existing e
 
 Table ScenarioSweep::members() const { return members_of(*impl_->sweep); }
 Table ScenarioSweep::sections() const { return sections_of(*impl_->sweep); }
-
-std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
-  const Sweep& sweep = *impl_->sweep;
-  if (sweep.members() > most_rows_in_summary) return report.json;
-  Json summary = read_json(report.json);
-  summary["rows"] = Json::array();
-  for (std::size_t member = 0; member < sweep.members(); ++member) summary["rows"].push_back(sweep_row(sweep, member));
-  return json_text(summary);
-}
 
 void ScenarioSweep::draw(const fs::path& file, const std::string& column, bool mean) const {
   (mean ? draw_mean_figure : draw_sweep_figure)(*impl_->sweep, file, column);

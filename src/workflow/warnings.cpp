@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -21,26 +20,18 @@ namespace hamflow {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double steps_per_period = 10;
-
-Json warning(const char* kind, const std::string& message) { return {{"kind", kind}, {"message", message}}; }
 
 std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
   return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);
 }
 
-/// Of an entry that has all its digits beyond double.
-double rounded(const Json& number) {
-  return number.is_string() ? std::strtod(number.get<std::string>().c_str(), nullptr) : number.get<double>();
-}
-
 /// The time from one turn of a Cartesian coordinate to the next but one, or of the radius where that is longer; 0 where
 /// it is not known.
-double period_of_orbit(const Json& orbit) {
-  if (orbit["falls_into_centre"].get<bool>()) return 0;
-  const double radial = rounded(orbit["radial_period"]);
-  const double angle = rounded(orbit["apsidal_angle"]);
+double period_of_orbit(const OrbitSummary& orbit) {
+  if (orbit.falls_into_centre) return 0;
+  const double radial = orbit.radial_period;
+  const double angle = orbit.apsidal_angle;
   const double round = angle > 0 ? radial * pi_value<double>() / angle : radial;
   return std::isfinite(round) && std::isfinite(radial) ? std::max(radial, round) : 0;
 }
@@ -76,44 +67,41 @@ bool flies_freely(const Scenario& scenario, const Frame& end) {
   return true;
 }
 
-void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns,
-                   std::span<const WallCount> walls, std::int64_t steps, Json& all) {
+void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
   // Of steps of varying length dt is the first: it is compared with the period of an orbit that is known, and so is
   // their mean, since a density that is summed up from steps that are too long leaves what it should follow.
   const bool varies = describe(scenario.request.method).varies_steps;
-  const auto seen = varies ? std::nullopt : turns.fastest();
-  const double first = varies ? std::abs(scenario.dt) : turns.longest_step();
-  const double mean = varies && steps > 0 && summary.contains("final") && summary["final"]["t"].is_number()
-                          ? std::abs(summary["final"]["t"].get<double>()) / static_cast<double>(steps)
-                          : 0;
+  const auto seen = varies ? std::nullopt : motion.turns->fastest();
+  const double first = varies ? std::abs(scenario.dt) : motion.turns->longest_step();
+  const double mean = varies ? motion.mean_step : 0;
   double dt = std::max(first, mean);
   double period = 0;
   std::string whose;
   if (seen) {
-    const auto bounces = between_bounces(walls, static_cast<double>(steps) * dt);
+    const auto bounces = between_bounces(motion.walls, static_cast<double>(motion.steps) * dt);
     const bool at_wall = bounces && bounces->period < seen->period;
     dt = std::abs(seen->dt);
     period = at_wall ? bounces->period : seen->period;
     whose = fmt::format("shortest period seen, {:.3g} (of {})", period,
                         name_of(scenario, at_wall ? bounces->coordinate : seen->coordinate));
-  } else if (summary.contains("orbit")) {
-    period = period_of_orbit(summary["orbit"]);
+  } else if (motion.orbit != nullptr) {
+    period = period_of_orbit(*motion.orbit);
     whose = fmt::format("period of the orbit, {:.3g}", period);
   }
   if (period == 0 || steps_per_period * dt <= period) return;
   const double enough = period / (2 * steps_per_period);
   if (mean > first) {
-    all.push_back(warning("long_step", fmt::format("the mean of the steps, {:.3g}, is more than a tenth of the {}; try "
-                                                   "dt = {:.2g} or less, of which they follow, or another monitor",
-                                                   mean, whose, scenario.dt * enough / mean)));
+    all.push_back({"long_step", fmt::format("the mean of the steps, {:.3g}, is more than a tenth of the {}; try "
+                                            "dt = {:.2g} or less, of which they follow, or another monitor",
+                                            mean, whose, scenario.dt * enough / mean)});
     return;
   }
-  all.push_back(warning("long_step", fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less",
-                                                 dt, whose, enough)));
+  all.push_back({"long_step",
+                 fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less", dt, whose, enough)});
 }
 
 /// The error of tao2 and tao4 grows as omega dt^order, since the springs turn the copies by 2 omega dt in a step.
-void add_fast_springs(const Scenario& scenario, Json& all) {
+void add_fast_springs(const Scenario& scenario, std::vector<Warning>& all) {
   constexpr double most = 0.25;
   const MethodSpec& method = scenario.request.method;
   if (!describe(method).carries_copy) return;
@@ -124,16 +112,16 @@ void add_fast_springs(const Scenario& scenario, Json& all) {
   const double omega = evaluate_number<double>(given == method.options.end() ? springs->default_value : given->second);
   const double product = omega * std::abs(scenario.dt);
   if (!(product > most)) return;
-  all.push_back(
-      warning("long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
-                                       "the state are too fast for the step; try dt = {:.2g} or less",
-                                       product, scenario.dt * most / product)));
+  all.push_back({"long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
+                                          "the state are too fast for the step; try dt = {:.2g} or less",
+                                          product, scenario.dt * most / product)});
 }
 
 /// Where the energy of (q, p) is off by more than a little the two copies of tao2 and tao4 may have parted: the method
 /// keeps the energy of both together. They are followed again from the start, in double, until they have.
 /// @param size of the energy
-void add_parted_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps, Json& all) {
+void add_parted_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps,
+                       std::vector<Warning>& all) {
   constexpr double least_error = 0x1p-8;  // of the energy: what is below comes from copies that are together
   constexpr double most = 0x1p-5;         // of the size of the state
   constexpr std::int64_t most_steps = std::int64_t{1} << 22U;
@@ -170,11 +158,11 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
     sizes.include(state.q, state.p);
     for (const GroupDistance& group : group_distances(groups, sizes, state, frame(1, 3))) {
       if (!(group.relative.value > most)) continue;
-      all.push_back(warning(
-          "parted_copies",
-          fmt::format("the two copies of the state have parted by {:.2g} of the size of {} at t = {:.4g}: what comes "
-                      "after is no motion of {}; try a larger omega, with omega dt below 1/4",
-                      group.relative.value, group.name, static_cast<double>(step) * scenario.dt, request.problem)));
+      all.push_back(
+          {"parted_copies",
+           fmt::format("the two copies of the state have parted by {:.2g} of the size of {} at t = {:.4g}: what comes "
+                       "after is no motion of {}; try a larger omega, with omega dt below 1/4",
+                       group.relative.value, group.name, static_cast<double>(step) * scenario.dt, request.problem)});
       return;
     }
   }
@@ -182,32 +170,31 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
 
 /// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes
 /// steps of half a period and more cannot rely on what those do.
-void add_long_search(const Scenario& scenario, const Simulation& simulation, Json& all) {
+void add_long_search(const Scenario& scenario, const Simulation& simulation, std::vector<Warning>& all) {
   const bool seeks = has_hard_walls(scenario.request) || scenario.section || !scenario.events.empty();
   const auto walls = walls_among(scenario.request.variant);
   const bool sees_ends_alone = walls && walls->rule == WallRule::reject;  // of steps
   if (!seeks || simulation.step() == 0 || (simulation.method().own_substeps && !sees_ends_alone)) return;
-  if (std::any_of(all.begin(), all.end(), [](const Json& each) { return each["kind"] == "long_step"; })) return;
+  if (std::any_of(all.begin(), all.end(), [](const Warning& each) { return each.kind == "long_step"; })) return;
   SectionSearch search({}, [](const SectionPoint&) {});
   search.measure(simulation);
   if (!search.is_long()) return;
-  all.push_back(
-      warning("long_step", fmt::format("dt = {:g} is half a period of the motion or more: bounces, points of a "
-                                       "section and events within a step are those of the method, and may "
-                                       "be fewer or more than those of the motion; try a smaller dt",
-                                       scenario.dt)));
+  all.push_back({"long_step", fmt::format("dt = {:g} is half a period of the motion or more: bounces, points of a "
+                                          "section and events within a step are those of the method, and may "
+                                          "be fewer or more than those of the motion; try a smaller dt",
+                                          scenario.dt)});
 }
 
 /// What is watched and was no number at the start or at the end may be kept or not.
-void add_no_numbers(const Json& summary, Json& all) {
-  if (!summary.contains("invariants") || summary.value("status", "") == "failed") return;  // which says why itself
+void add_no_numbers(const Summary& summary, std::vector<Warning>& all) {
+  if (summary.status == "failed") return;  // which says why itself
   std::vector<std::string> names;
-  for (const auto& [name, seen] : summary["invariants"].items()) {
-    if (seen["max_error"].is_null()) names.push_back(name);
+  for (const InvariantSummary& each : summary.invariants) {
+    if (!each.max_error()) names.push_back(each.name);
   }
   if (names.empty()) return;
-  all.push_back(warning("no_number", joined(names) + (names.size() == 1 ? " was" : " were") +
-                                         " not finite at the start or at the end: nothing is said of how far off"));
+  all.push_back({"no_number", joined(names) + (names.size() == 1 ? " was" : " were") +
+                                  " not finite at the start or at the end: nothing is said of how far off"});
 }
 
 /// The distance within which two particles of a gas repel each other, in the lengths of the positions: that of the
@@ -332,12 +319,12 @@ std::string overlap_at_start(const Scenario& scenario) {
       two->one + 1, two->other + 1, two->distance, core);
 }
 
-void add_passing(const Scenario& scenario, const Frame& end, Json& all) {
+void add_passing(const Scenario& scenario, const Frame& end, std::vector<Warning>& all) {
   Frame start;
   start.q = scenario.start_q;
   start.p = scenario.start_p;
   const std::string told = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
-  if (!told.empty()) all.push_back(warning("long_step", told));
+  if (!told.empty()) all.push_back({"long_step", told});
 }
 
 /// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.
@@ -390,63 +377,68 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const
   return !(energy.max_error <= (start.of_q + start.of_p) / 4 || energy.max_error <= 0.01 * of(end.q, end.p).of_p);
 }
 
-Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns,
-                 std::optional<double> exchanged) {
-  Frame end;
-  simulation.look(end);
-  Json all =
-      warnings_of(scenario, summary, simulation.energy(), end, turns, simulation.wall_counts(), end.step, exchanged);
-  if (!scenario.map && !flies_freely(scenario, end)) add_long_search(scenario, simulation, all);
+std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
+                                 const TurnWatch* turns, std::optional<double> exchanged) {
+  WatchedMotion motion{.energy = simulation.energy(),
+                       .end = {},
+                       .orbit = summary.orbit ? &*summary.orbit : nullptr,
+                       .turns = turns,
+                       .walls = simulation.wall_counts(),
+                       .exchanged = exchanged};
+  simulation.look(motion.end);
+  motion.steps = motion.end.step;
+  if (motion.steps > 0 && motion.end.digits.q.empty()) {
+    motion.mean_step = std::abs(motion.end.time) / static_cast<double>(motion.steps);
+  }
+  std::vector<Warning> all = warnings_of(scenario, motion);
+  if (!scenario.map && !flies_freely(scenario, motion.end)) add_long_search(scenario, simulation, all);
   add_no_numbers(summary, all);
   return all;
 }
 
-Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, const Frame& end,
-                 const TurnWatch* turns, std::span<const WallCount> walls, std::int64_t steps,
-                 std::optional<double> exchanged) {
-  Json all = Json::array();
+std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion) {
+  std::vector<Warning> all;
   if (scenario.map) return all;  // they compare steps with the flow of H
+  const Excursion& energy = motion.energy;
+  const Frame& end = motion.end;
   const double scale = energy.scale_at_start;
-  if (is_energy_nonsense(scenario, energy, end, exchanged)) {
+  if (is_energy_nonsense(scenario, energy, end, motion.exchanged)) {
     all.push_back(
-        warning("energy_error", fmt::format("the energy was off by {:.3g}, {}: this is "
-                                            "no motion of {}; try a smaller dt{}",
-                                            energy.max_error,
-                                            scale > 0 && !(energy.max_error > scale)
-                                                ? fmt::format("more than the motion exchanges between T and V, {:.3g}",
-                                                              exchanged.value_or(energy.exchanged))
-                                            : scale > 0 ? fmt::format("more than its scale, {:.3g}", scale)
-                                                        : std::string("and is 0 at the start"),
-                                            scenario.request.problem,
-                                            describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
-                                    overlap_at_start(scenario)));
+        {"energy_error", fmt::format("the energy was off by {:.3g}, {}: this is "
+                                     "no motion of {}; try a smaller dt{}",
+                                     energy.max_error,
+                                     scale > 0 && !(energy.max_error > scale)
+                                         ? fmt::format("more than the motion exchanges between T and V, {:.3g}",
+                                                       motion.exchanged.value_or(energy.exchanged))
+                                     : scale > 0 ? fmt::format("more than its scale, {:.3g}", scale)
+                                                 : std::string("and is 0 at the start"),
+                                     scenario.request.problem,
+                                     describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
+                             overlap_at_start(scenario)});
   }
   if (end.step > 0) {
+    const auto& exchanged = motion.exchanged;
     const double size = exchanged && *exchanged > 0 ? std::min(*exchanged, scale > 0 ? scale : *exchanged) : scale;
     add_parted_copies(scenario, energy, size, end.step, all);
   }
-  const bool exact = flies_freely(scenario, end);
-  if (turns != nullptr && !exact) add_long_step(scenario, summary, *turns, walls, steps, all);
+  if (motion.turns != nullptr && !flies_freely(scenario, end)) add_long_step(scenario, motion, all);
   if (end.step > 0) add_fast_springs(scenario, all);
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
-  if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
-      has_fallen(scenario, rounded(summary["orbit"]["radial_period"]), end.time)) {
+  if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
+      has_fallen(scenario, motion.orbit->radial_period, end.time)) {
     // The phase stands still only on a line. Who falls with angular momentum is not helped by a little more of it.
-    const bool on_line = rounded(summary["orbit"]["apsidal_angle"]) == 0;
-    all.push_back(warning("falls_into_centre",
-                          std::string("the orbit ends in the centre, where H has no finite value, before the run does: "
-                                      "what comes after is no motion; stop earlier, or give the start ") +
-                              (on_line ? "some angular momentum" : "so much more angular momentum that it stays out")));
+    const bool on_line = motion.orbit->apsidal_angle.value == 0;
+    all.push_back({"falls_into_centre",
+                   std::string("the orbit ends in the centre, where H has no finite value, before the run does: "
+                               "what comes after is no motion; stop earlier, or give the start ") +
+                       (on_line ? "some angular momentum" : "so much more angular momentum that it stays out")});
   }
   return all;
 }
 
-std::vector<std::string> warning_lines(const Json& summary) {
+std::vector<std::string> warning_lines(const std::vector<Warning>& warnings) {
   std::vector<std::string> lines;
-  if (!summary.contains("warnings")) return lines;
-  for (const Json& each : summary["warnings"]) {
-    lines.push_back(each["kind"].get<std::string>() + ": " + each["message"].get<std::string>());
-  }
+  for (const Warning& each : warnings) lines.push_back(each.kind + ": " + each.message);
   return lines;
 }
 

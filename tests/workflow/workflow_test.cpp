@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/value.hpp"
+#include "hamflow/verify/monodromy.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
@@ -132,6 +134,170 @@ TEST_F(Workflow, AReportHoldsTheNumbersOfItsSummary) {
   EXPECT_NE(report.text.find("Lyapunov exponents"), std::string::npos);
   EXPECT_TRUE(report.certificate.has_value());
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+/// The energies of a run, and the sum of q1^2 over its steps.
+class Tally final : public Observer {
+ public:
+  std::int64_t next_due(std::int64_t step) const override { return step; }
+  Verdict observe(const Frame& frame) override {
+    if (frame.step == 0) first_ = frame.energy;
+    most = std::max(most, std::abs(frame.energy - first_));
+    if (frame.step > 0) squares += frame.q[0] * frame.q[0];
+    return Verdict::go_on;
+  }
+  double most = 0;  // |H - H0|
+  double squares = 0;
+
+ private:
+  double first_ = 0;
+};
+
+/// JSON holds all of it but for digits of doubles.
+void expect_to_read_back(const RunReport& report) {
+  const Summary again = read_summary(report.json);
+  EXPECT_EQ(summary_json(again), report.json);
+  EXPECT_EQ(summary_text(again), report.text);
+}
+
+TEST_F(Workflow, ASummaryHoldsTheNumbersOfAChaoticRun) {
+  const Scenario chaotic = scenario({R"(run.events=[{ name = "up", expression = "q2", direction = 1 },
+                                                    { name = "late", expression = "t - 120.05", action = "stop" }])",
+                                     R"(output.observables={ square = "q1^2" })"});
+  const auto simulation = make_simulation(chaotic.request);
+  LyapunovWatch lyapunov(chaotic.problem->step_map(chaotic.request, 2), chaotic.dt, chaotic.steps);
+  MonodromyWatch derivative(chaotic.problem->step_map(chaotic.request, 2), chaotic.dt, chaotic.steps);
+  Tally tally;
+  Observer* const observers[] = {&lyapunov, &derivative, &tally};
+  ASSERT_EQ(run(*simulation, 1201, observers), Outcome::done);
+  Frame end;
+  simulation->look(end);
+  for (TangentWatch* watch : {static_cast<TangentWatch*>(&lyapunov), static_cast<TangentWatch*>(&derivative)}) {
+    if (watch->step() < end.step) (void)watch->observe(end);
+  }
+
+  const RunReport report = run(chaotic);
+  const Summary& s = report.summary;
+  EXPECT_EQ(s.status, "done");
+  EXPECT_EQ(s.problem, "henon-heiles");
+  EXPECT_EQ(s.steps, 1201);
+  EXPECT_EQ(s.final.t, end.time);
+  EXPECT_EQ(s.final.q, end.q);
+  EXPECT_EQ(s.final.p, end.p);
+  EXPECT_EQ(s.effort.force, end.effort.force);
+  EXPECT_EQ(s.energy.final.value, end.energy);
+  EXPECT_NEAR(s.energy.max_error, tally.most, 1e-15);
+  EXPECT_EQ(s.energy.max_relative_error.value().value, s.energy.max_error / s.energy.scale.value());
+  ASSERT_TRUE(s.lyapunov && s.eigenvalues && s.section && s.stopped_by && s.certificate);
+  EXPECT_EQ(s.lyapunov->exponents, lyapunov.spectrum().exponents);
+  EXPECT_EQ(s.lyapunov->pair_sums.size(), 2U);
+  EXPECT_FALSE(s.lyapunov->stopped_at_step);
+  EXPECT_EQ(s.eigenvalues->steps, 1201);
+  ASSERT_TRUE(s.eigenvalues->values);
+  EXPECT_EQ(*s.eigenvalues->values, symplectic_eigenvalues(derivative.rows()).values);
+  EXPECT_EQ(s.section->points, static_cast<std::int64_t>(report.tables.section.rows()));
+  EXPECT_GT(s.section->points, 10);
+  const std::vector<double> q1 = report.tables.section["q"].part(0);
+  EXPECT_EQ(s.section->max_residual, std::abs(*std::ranges::max_element(q1, {}, [](double x) { return std::abs(x); })));
+  ASSERT_EQ(s.events.size(), 2U);
+  EXPECT_EQ(s.events[0].first, "user:up");
+  EXPECT_EQ(s.events[0].second, static_cast<std::int64_t>(report.tables.events.at(0).rows()));
+  EXPECT_EQ(s.events[1], std::pair(std::string("user:late"), std::int64_t{1}));
+  EXPECT_EQ(s.stopped_by->event, "late");
+  EXPECT_NEAR(s.stopped_by->t, 120.05, 1e-13);
+  EXPECT_EQ(s.stopped_by->q, report.tables.events.at(1)["q"].row(0));
+  ASSERT_EQ(s.observables.size(), 1U);
+  EXPECT_EQ(s.observables[0].name, "square");
+  EXPECT_EQ(s.observables[0].final, end.q[0] * end.q[0]);
+  EXPECT_NEAR(s.observables[0].mean, tally.squares / 1201, 1e-14);
+  expect_to_read_back(report);
+}
+
+TEST_F(Workflow, ASummaryHoldsTheNumbersOfAnOrbit) {
+  const std::string text = R"(
+[problem]
+name = "central-force"
+potential = "kepler"
+mass = 2
+orbit = { kind = "ellipse", r_per = 1, r_aph = 3 }
+[method]
+name = "cg"
+quadrature = 5
+[run]
+dt = 0.1
+steps = 30
+)";
+  const RunReport report = run(accepted(read_scenario_text(text, "kepler", {})));
+  const Summary& s = report.summary;
+  ASSERT_TRUE(s.orbit && s.exact && s.newton);
+  EXPECT_EQ(s.orbit->conic, "ellipse");
+  EXPECT_NEAR(s.orbit->r_min, 1, 1e-15);
+  EXPECT_NEAR(s.orbit->r_max, 3, 1e-14);
+  EXPECT_FALSE(s.orbit->falls_into_centre);
+  EXPECT_EQ(s.exact->differences.at(0).second,
+            std::max(std::abs(s.final.q[0] - s.exact->q[0]), std::abs(s.final.q[1] - s.exact->q[1])));
+  EXPECT_EQ(s.newton->mean, static_cast<double>(s.effort.linear_solves) / 30);
+  const auto momentum = std::ranges::find(s.invariants, "angular_momentum", &InvariantSummary::name);
+  ASSERT_NE(momentum, s.invariants.end());
+  EXPECT_FALSE(momentum->is_list);
+  EXPECT_NEAR(momentum->seen.final.at(0), s.final.q[0] * s.final.p[1] - s.final.q[1] * s.final.p[0], 1e-14);
+  expect_to_read_back(report);
+
+  const Scenario longer = accepted(read_scenario_text(text, "kepler", {"run.arithmetic=mp(40)", "run.steps=10"}));
+  const auto simulation = make_simulation(longer.request);
+  ASSERT_EQ(simulation->advance(10), Outcome::done);
+  Frame end;
+  simulation->look(end);
+  const RunReport in_digits = run(longer);
+  const Summary& d = in_digits.summary;
+  EXPECT_EQ(d.final.digits.time, end.digits.time);
+  EXPECT_EQ(d.final.digits.q, end.digits.q);
+  EXPECT_EQ(d.final.q, end.q);
+  EXPECT_EQ(d.energy.final.text, end.digits.energy);
+  EXPECT_EQ(d.energy.final.value, end.energy);
+  EXPECT_GE(d.orbit->apsidal_angle.text.size(), 40U);
+  EXPECT_NEAR(d.orbit->apsidal_angle, pi_value<double>(), 1e-15);
+  EXPECT_EQ(d.orbit->uncertainty.size(), 5U);
+  expect_to_read_back(in_digits);
+}
+
+TEST_F(Workflow, ASummaryTellsWhyARunFailed) {
+  const RunReport report = run(scenario(
+      {"run.lyapunov=false", "run.eigenvalues=false", "run.dt=3", R"(method={ name = "gauss", max_iterations = 3 })"}));
+  const Summary& s = report.summary;
+  EXPECT_EQ(s.status, "failed");
+  ASSERT_TRUE(s.error);
+  EXPECT_EQ(s.error->kind, "not_converged");
+  EXPECT_EQ(s.error->step, s.steps + 1);
+  EXPECT_EQ(s.error->t, s.final.t);
+  EXPECT_EQ(s.error->message, report.message);
+  EXPECT_EQ(s.error->hint, report.hint);
+  EXPECT_FALSE(s.error->hint.empty());
+  expect_to_read_back(report);
+}
+
+TEST_F(Workflow, ASweepHoldsTheNumbersOfItsMembers) {
+  ScenarioSweep sweep({.text = chaos,
+                       .name = "chaos",
+                       .sets = {"run.steps=500", R"(output.observables={ square = "q1^2" })"},
+                       .varied = {"problem.initial.p[1]=0.1,0.12"}});
+  const SweepSummary s = sweep.run().summary;
+  EXPECT_EQ(s.done, 2U);
+  ASSERT_EQ(s.rows.size(), 2U);
+  for (const SweepRow& row : s.rows) {
+    const double p = std::get<double>(row.varied.at(0).second.content);
+    const Summary alone = run(scenario({"run.steps=500", R"(output.observables={ square = "q1^2" })",
+                                        "problem.initial.p=[0.54," + shortest(p) + "]"}))
+                              .summary;
+    ASSERT_TRUE(row.final && row.section && alone.lyapunov && alone.section);
+    EXPECT_EQ(row.final->q, alone.final.q);
+    EXPECT_EQ(row.energy.max_error, alone.energy.max_error.value);
+    EXPECT_EQ(row.section->points, alone.section->points);
+    const auto column = std::ranges::find(row.columns, "lyapunov1", &std::pair<std::string, double>::first);
+    ASSERT_NE(column, row.columns.end());
+    EXPECT_EQ(column->second, alone.lyapunov->exponents[0]);
+    EXPECT_EQ(row.observables.at(0).mean, alone.observables.at(0).mean);
+  }
 }
 
 TEST_F(Workflow, ACertificateThatWasStoppedBehindAnEventIsMadeUpFor) {
@@ -410,8 +576,12 @@ TEST_F(Workflow, RequestsThatAreWrong) {
 }
 
 TEST_F(Workflow, ReversalComparisonSweepAndSession) {
-  EXPECT_TRUE(reverse_scenario(scenario({"run.lyapunov=false", "run.eigenvalues=false", "run.arithmetic=lattice"}))
-                  .reversal.bit_exact);
+  const ReversalReport back =
+      reverse_scenario(scenario({"run.lyapunov=false", "run.eigenvalues=false", "run.arithmetic=lattice"}));
+  EXPECT_TRUE(back.reversal.bit_exact);
+  EXPECT_TRUE(back.summary.bit_exact.value());
+  EXPECT_EQ(back.summary.returned->q, back.summary.start.q);
+  EXPECT_EQ(back.summary.end_hash, back.summary.start_hash);
 
   ReversalSettings settings{.folder = folder_ / "there_and_back"};
   settings.pulse = [calls = 0](std::int64_t) mutable { return ++calls < 2; };
@@ -419,7 +589,12 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
   EXPECT_EQ(reverse_scenario(long_way, settings).status, "interrupted");
   settings.pulse = {};
   settings.existing = Existing::resume;
-  EXPECT_EQ(reverse_scenario(long_way, settings).json, reverse_scenario(long_way).json);
+  const ReversalReport whole = reverse_scenario(long_way, settings);
+  EXPECT_EQ(whole.json, reverse_scenario(long_way).json);
+  EXPECT_EQ(whole.summary.distance->value, whole.reversal.distance.value);
+  const ReversalReport there = reverse_scenario(long_way, settings);  // complete: read from the folder
+  EXPECT_EQ(reversal_json(there.summary), whole.json);
+  EXPECT_EQ(there.text, whole.text);
 
   ComparisonRequest two{scenario().request, {parse_method("stv4"), parse_method("yoshida6")}, 10, {100, 200}};
   const ComparisonReport compared = compare_methods(two);
@@ -441,7 +616,7 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
   const SampleKeeper samples(1, 2);
   save_session(session, samples, {}, folder_ / "steered", false);
   EXPECT_NE(content(folder_ / "steered" / "summary.json").find("\"changes\""), std::string::npos);
-  EXPECT_EQ(session_failure(session, {}).first, "");
+  EXPECT_FALSE(session_summary(session, {}).error);
 }
 
 /// Of a gas a sample is positions, momenta and velocities.

@@ -12,6 +12,7 @@
 #include "hamflow/run/run_tables.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/verify/certificate.hpp"
+#include "hamflow/workflow/summary.hpp"
 #include "hamflow/workflow/work_folder.hpp"
 
 namespace hamflow {
@@ -30,9 +31,10 @@ struct RunSettings {
   std::vector<Observer*> observers{};
 };
 
-/// What a run came to.
+/// The result of a run. The summary has its numbers; some are repeated here, as the simulation returns them.
 struct RunReport {
-  std::string status;        // "done", "interrupted", "failed"
+  Summary summary;
+  std::string status;        // that of the summary: "done", "interrupted", "failed"
   std::string message;       // of a run that failed: what happened, a sentence
   std::string hint;          // and what can be done
   std::string details;       // the numbers of a step that found no solution
@@ -46,10 +48,10 @@ struct RunReport {
   Excursion energy;
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;  // in the order of the problem
-  std::optional<RunCertificate> certificate;   // none where the run was complete before
-  double wall_seconds = 0;                     // of all its parts
-  std::string json;                            // the summary, as in summary.json
-  std::string text;                            // the summary for people
+  std::optional<RunCertificate> certificate;
+  double wall_seconds = 0;  // of all its parts
+  std::string json;         // summary_json(summary), as in summary.json
+  std::string text;         // summary_text(summary)
 };
 
 /// @throws Rejection when the scenario does not go on with the run in the folder   @throws Error when an observer has

@@ -8,15 +8,9 @@
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/turns.hpp"
+#include "hamflow/workflow/summary.hpp"
 
 namespace hamflow {
-
-/// One setting that changed.
-struct SessionChange {
-  std::int64_t step = 0;
-  double time = 0;
-  std::string what;  // e.g. "dt = 0.05"
-};
 
 class Session final : public Simulation {
  public:
@@ -141,12 +135,8 @@ struct SessionOutcome {
   double wall_seconds = 0;  // of all steps
 };
 
-/// What is plainly nonsense about the session so far, "kind: message" each.
-std::vector<std::string> session_warnings(const Session& session, const SessionOutcome& last);
-/// The summary of a session, as JSON: that of a run, and what was changed on the way.
-std::string session_summary(const Session& session, const SessionOutcome& last);
-/// What went wrong in the last steps, and what can be done; both empty where nothing did.
-std::pair<std::string, std::string> session_failure(const Session& session, const SessionOutcome& last);
+/// That of a run, and what was changed on the way.
+Summary session_summary(const Session& session, const SessionOutcome& last);
 /// Writes what was sampled so far, as a run leaves it.
 /// @param replace an existing folder   @throws FileError when it exists and `replace` is false, or cannot be written
 void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,

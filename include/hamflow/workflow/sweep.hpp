@@ -10,6 +10,7 @@
 
 #include "hamflow/core/table.hpp"
 #include "hamflow/workflow/run.hpp"
+#include "hamflow/workflow/sweep_summary.hpp"
 
 namespace hamflow {
 
@@ -27,12 +28,13 @@ struct SweepRequest {
 };
 
 struct SweepReport {
-  std::string status;                 // "done", "interrupted"; "failed": no member came to its end
+  SweepSummary summary;
+  std::string status;                 // that of the summary
   std::vector<std::string> failures;  // the first ten, a sentence each
   std::string hint;                   // what helps against the first of them; often nothing
   std::vector<std::string> warnings;  // what is plainly nonsense about members that are done, "kind: message" each
-  std::string json;                   // the summary
-  std::string text;                   // for people
+  std::string json;                   // sweep_json(summary, false), as in summary.json
+  std::string text;                   // sweep_text(summary)
 };
 
 class ScenarioSweep {
@@ -75,8 +77,8 @@ class ScenarioSweep {
   Table members() const;
   /// A row for each point of the members' sections: section/member, section/t, section/q, section/p.
   Table sections() const;
-  /// The summary with a row for each member; without them where there are more than 10^4.
-  std::string json_with_rows(const SweepReport& report) const;
+  /// The summary with its rows.
+  std::string json_with_rows(const SweepReport& report) const { return sweep_json(report.summary, true); }
   /// A column over the one or two keys varied, or the section of all members; or, over the first key, means of columns
   /// over the values of all others, with their standard errors.   @throws Error, FileError
   void draw(const std::filesystem::path& file, const std::string& column, bool mean = false) const;

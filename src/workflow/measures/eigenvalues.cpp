@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "hamflow/verify/monodromy.hpp"
+#include "json_fields.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
@@ -12,29 +12,35 @@
 
 namespace hamflow {
 
-namespace {
+template <class Ar>
+void fields(Ar& ar, EigenvalueSummary& x) {
+  ar("values", x.values);
+  if (x.values) {
+    ar("pair_defect", x.pair_defect, "symplectic_defect", x.symplectic_defect, "norm", x.norm);
+  }
+  ar.if_any("message", x.message);
+  ar("steps", x.steps);
+}
 
-using Json = nlohmann::ordered_json;
+namespace {
 
 class EigenvalueMeasure final : public Measure {
  public:
   explicit EigenvalueMeasure(const Scenario& scenario) : watch_(step_map_of(scenario), scenario.dt, scenario.steps) {}
   Observer& observer() override { return watch_; }
   TangentWatch* tangents() override { return &watch_; }
-  Json summary() const override {
-    Json all;
+  void add_to(Summary& summary) const override {
+    EigenvalueSummary& all = summary.eigenvalues.emplace();
+    all.steps = watch_.step();
     try {
-      const SymplecticEigenvalues found = eigenvalues();
-      all["values"] = Json::array();
-      for (const auto& value : found.values) all["values"].push_back({value.real(), value.imag()});
-      all["pair_defect"] = found.pair_defect;
-      all["symplectic_defect"] = found.symplectic_defect;
-      all["norm"] = found.norm;
+      SymplecticEigenvalues found = eigenvalues();
+      all.values = std::move(found.values);
+      all.pair_defect = found.pair_defect;
+      all.symplectic_defect = found.symplectic_defect;
+      all.norm = found.norm;
     } catch (const Error& error) {  // chaos overflows in the end: the run itself is none the worse
-      all = {{"values", nullptr}, {"message", error.what()}};
+      all.message = error.what();
     }
-    all["steps"] = watch_.step();
-    return all;
   }
   /// NaN where the summary of a run has none.
   std::vector<double> row() const override {
@@ -70,19 +76,23 @@ std::vector<std::string> columns(const Scenario& first) {
   return all;
 }
 
-std::string eigenvalues_text(const Json& found) {
-  if (found["values"].is_null()) return found["message"].get<std::string>();
+std::string eigenvalues_text(const EigenvalueSummary& found) {
+  if (!found.values) return found.message;
   constexpr std::size_t most_shown = 6;
   std::string line;
-  for (std::size_t i = 0; i < std::min(found["values"].size(), most_shown); ++i) {
-    const Json& imaginary = found["values"][i][1];
-    line += (i > 0 ? ", " : "") + number_text(found["values"][i][0], "{:.6g}") +
-            (imaginary != 0 ? number_text(imaginary, "{:+.6g}") + "i" : "");
+  for (std::size_t i = 0; i < std::min(found.values->size(), most_shown); ++i) {
+    const std::complex<double> value = (*found.values)[i];
+    line += (i > 0 ? ", " : "") + number_text(value.real(), "{:.6g}") +
+            (value.imag() != 0 ? number_text(value.imag(), "{:+.6g}") + "i" : "");
   }
-  if (found["values"].size() > most_shown) line += ", ...";
-  return line + fmt::format("; products of pairs {} off 1, {} off symplectic",
-                            number_text(found["pair_defect"], "{:.2g}"),
-                            number_text(found["symplectic_defect"], "{:.2g}"));
+  if (found.values->size() > most_shown) line += ", ...";
+  return line + fmt::format("; products of pairs {} off 1, {} off symplectic", number_text(found.pair_defect, "{:.2g}"),
+                            number_text(found.symplectic_defect, "{:.2g}"));
+}
+
+template <class Ar>
+void eigenvalues_entry(Ar& ar, Summary& summary) {
+  ar.if_any(run_keys().eigenvalues.name, summary.eigenvalues);
 }
 
 }  // namespace
@@ -94,7 +104,9 @@ MeasureKind measure_eigenvalues() {
           .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
             return std::make_unique<EigenvalueMeasure>(scenario);
           },
-          .text = eigenvalues_text,
+          .write = eigenvalues_entry,
+          .read = eigenvalues_entry,
+          .text = [](const Summary& s) { return s.eigenvalues ? eigenvalues_text(*s.eigenvalues) : std::string(); },
           .columns = columns};
 }
 

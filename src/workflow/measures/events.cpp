@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
 #include "recorder.hpp"
 #include "section_text.hpp"
+#include "summary.hpp"
+#include "summary_fields.hpp"
 
 namespace hamflow {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 class EventsMeasure final : public Measure, public Observer {
  public:
@@ -51,8 +50,11 @@ class EventsMeasure final : public Measure, public Observer {
     for (const auto& finder : finders_) most = std::max(most, finder->unseen());
     return most;
   }
-  void add_events(Json& events) const override {
-    for (std::size_t i = 0; i < events_.size(); ++i) events["user:" + events_[i].name] = finders_[i]->points();
+  void add_to(Summary& summary) const override {
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      summary.events.emplace_back("user:" + events_[i].name, finders_[i]->points());
+    }
+    if (by_) summary.stopped_by = stop_summary(events_[*by_].name, *stopped_by());
   }
   std::vector<std::string> event_notes() const override {
     std::vector<std::string> all;
@@ -69,10 +71,6 @@ class EventsMeasure final : public Measure, public Observer {
   std::optional<MemberStop> stopped_by() const override {
     if (!by_) return std::nullopt;
     return MemberStop{*by_, where_.time, where_.q, where_.p, where_.digits};
-  }
-  Json summary() const override {
-    if (!by_) return nullptr;
-    return json_of(events_[*by_].name, *stopped_by());
   }
 
  private:
@@ -99,6 +97,12 @@ class EventsMeasure final : public Measure, public Observer {
   SectionPoint where_;
 };
 
+template <class Ar>
+void events_entry(Ar& ar, Summary& summary) {
+  ar.if_any("event_notes", summary.event_notes);
+  ar.if_any("stopped_by", summary.stopped_by);
+}
+
 }  // namespace
 
 MeasureKind measure_events() {
@@ -107,10 +111,12 @@ MeasureKind measure_events() {
           .requested = [](const Scenario& scenario) { return !scenario.events.empty(); },
           .make_of_run = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
               -> std::unique_ptr<Measure> { return std::make_unique<EventsMeasure>(scenario, simulation, recorder); },
+          .write = events_entry,
+          .read = events_entry,
           .text =
-              [](const Json& found) {
-                return fmt::format("{} at t = {}", found["event"].get<std::string>(),
-                                   number_text(found["t"], "{:.17g}"));
+              [](const Summary& s) {
+                if (!s.stopped_by) return std::string();
+                return s.stopped_by->event + " at t = " + number_text(time_of(*s.stopped_by), "{:.17g}");
               },
           .counts_events = true};
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
+#include "json_fields.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
@@ -15,9 +15,16 @@
 
 namespace hamflow {
 
-namespace {
+template <class Ar>
+void fields(Ar& ar, LyapunovSummary& x) {
+  std::string verdict = x.steady ? "steady" : "undecided";
+  ar("exponents", x.exponents, "standard_errors", x.standard_errors, "verdict", verdict);
+  if constexpr (Ar::reading) x.steady = verdict == "steady";
+  ar("pair_sums", x.pair_sums, "time", x.time, "renormalisations", x.renormalisations);
+  ar.if_any("stopped_at_step", x.stopped_at_step);
+}
 
-using Json = nlohmann::ordered_json;
+namespace {
 
 class LyapunovMeasure final : public Measure {
  public:
@@ -25,16 +32,16 @@ class LyapunovMeasure final : public Measure {
       : watch_(step_map_of(scenario), scenario.dt, scenario.steps, scenario.lyapunov), by_steps_(scenario.map) {}
   Observer& observer() override { return watch_; }
   TangentWatch* tangents() override { return &watch_; }
-  Json summary() const override {
-    const LyapunovSpectrum found = spectrum();
-    Json all{{"exponents", found.exponents},
-             {"standard_errors", found.standard_errors},
-             {"verdict", found.steady ? "steady" : "undecided"},
-             {"pair_sums", found.pair_sums},
-             {"time", found.time},
-             {"renormalisations", found.renormalisations}};
-    if (!watch_.followed()) all["stopped_at_step"] = watch_.step();
-    return all;
+  void add_to(Summary& summary) const override {
+    LyapunovSpectrum found = spectrum();
+    LyapunovSummary& all = summary.lyapunov.emplace();
+    all.exponents = std::move(found.exponents);
+    all.standard_errors = std::move(found.standard_errors);
+    all.steady = found.steady;
+    all.pair_sums = std::move(found.pair_sums);
+    all.time = found.time;
+    all.renormalisations = found.renormalisations;
+    if (!watch_.followed()) all.stopped_at_step = watch_.step();
   }
   /// NaN where not every step could be followed: a column cannot say at which step its numbers end.
   std::vector<double> row() const override {
@@ -51,29 +58,34 @@ class LyapunovMeasure final : public Measure {
 };
 
 /// The largest of some numbers, without sign.
-double largest_of(const Json& xs) {
+double largest_of(const std::vector<double>& xs) {
   double largest = 0;
-  for (const Json& x : xs) largest = x.is_null() ? largest : std::max(largest, std::abs(x.get<double>()));
+  for (const double x : xs) largest = std::max(largest, std::abs(x));
   return largest;
 }
 
-std::string lyapunov_text(const Json& found) {
+std::string lyapunov_text(const LyapunovSummary& found) {
   constexpr std::size_t most_shown = 6;
   std::string line;
-  for (std::size_t i = 0; i < std::min(found["exponents"].size(), most_shown); ++i) {
-    line += (i > 0 ? ", " : "") + number_text(found["exponents"][i], "{:.6g}") + " +- " +
-            number_text(found["standard_errors"][i], "{:.2g}");
+  for (std::size_t i = 0; i < std::min(found.exponents.size(), most_shown); ++i) {
+    line += (i > 0 ? ", " : "") + number_text(found.exponents[i], "{:.6g}") + " +- " +
+            number_text(found.standard_errors[i], "{:.2g}");
   }
-  if (found["exponents"].size() > most_shown) line += ", ...";
-  if (found.value("verdict", "steady") == "undecided") {
+  if (found.exponents.size() > most_shown) line += ", ...";
+  if (!found.steady) {
     line += "; undecided: the growth is not steady, as on regular and on sticky orbits; try a longer run";
   }
-  if (!found["pair_sums"].empty()) line += fmt::format("; pairs sum to at most {:.2g}", largest_of(found["pair_sums"]));
-  if (found.contains("stopped_at_step")) {
+  if (!found.pair_sums.empty()) line += fmt::format("; pairs sum to at most {:.2g}", largest_of(found.pair_sums));
+  if (found.stopped_at_step) {
     line += fmt::format("; over a time of {} alone: then a step could not be differentiated",
-                        number_text(found["time"], "{:.6g}"));
+                        number_text(found.time, "{:.6g}"));
   }
   return line;
+}
+
+template <class Ar>
+void lyapunov_entry(Ar& ar, Summary& summary) {
+  ar.if_any(run_keys().lyapunov.name, summary.lyapunov);
 }
 
 std::vector<std::string> columns_of_exponents(const Scenario& first) {
@@ -91,7 +103,9 @@ MeasureKind measure_lyapunov() {
           .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
             return std::make_unique<LyapunovMeasure>(scenario);
           },
-          .text = lyapunov_text,
+          .write = lyapunov_entry,
+          .read = lyapunov_entry,
+          .text = [](const Summary& s) { return s.lyapunov ? lyapunov_text(*s.lyapunov) : std::string(); },
           .columns = columns_of_exponents};
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,10 +13,13 @@
 #include "hamflow/run/step_sums.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/lyapunov.hpp"
+#include "hamflow/workflow/summary.hpp"
 #include "sweep.hpp"
 
 namespace hamflow {
 
+class JsonReader;
+class JsonWriter;
 class Recorder;
 
 /// A quantity during one run.
@@ -30,10 +32,8 @@ class Measure {
   virtual TangentWatch* tangents() { return nullptr; }
   /// The same where it needs sums over the steps alone, which lanes keep by themselves.
   virtual SummedSteps* summing() { return nullptr; }
-  /// Its entry in the summary, from what was seen so far; null: none.
-  virtual nlohmann::ordered_json summary() const = 0;
-  /// What it counts among the events.
-  virtual void add_events(nlohmann::ordered_json& /*events*/) const {}
+  /// Sets its member of the summary to what was seen so far, and adds the events that it counts.
+  virtual void add_to(Summary& summary) const = 0;
   /// What there is to say of those counts.
   virtual std::vector<std::string> event_notes() const { return {}; }
   /// Whether the run ends here by its own will.
@@ -48,7 +48,7 @@ class Measure {
 };
 
 struct MeasureKind {
-  std::string key;    // of [run], of the summary, of the checkpoint
+  std::string key;    // of [run], of the checkpoint
   std::string label;  // of its line in the summary for people
   bool (*requested)(const Scenario&);
   /// Of anything that shows step, time, q and p: a run, a lane. The scenario outlives it.
@@ -56,8 +56,10 @@ struct MeasureKind {
   /// In its place, of what needs more of a run.   @param recorder takes what is recorded beside the samples; may be
   /// null
   std::unique_ptr<Measure> (*make_of_run)(const Scenario&, const Simulation&, Recorder* recorder) = nullptr;
-  /// Its line for people, from its entry in the summary.
-  std::string (*text)(const nlohmann::ordered_json& entry);
+  /// Its key in the summary, and its line for people. Nothing where the summary does not have it.
+  void (*write)(JsonWriter&, Summary&);
+  void (*read)(JsonReader&, Summary&);
+  std::string (*text)(const Summary&);
   /// The names of the columns that it gives a member of a sweep; null: a sweep records it for each member in a table of
   /// its own.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;

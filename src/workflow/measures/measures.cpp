@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "measure_list.hpp"
 
@@ -41,22 +40,20 @@ void Measures::reach_the_end(const Frame& end) {
   carry_to_the_end(watches, end);
 }
 
-void Measures::add_to(nlohmann::ordered_json& summary) const {
+void Measures::add_to(Summary& summary) const {
   for (const auto& [kind, measure] : requested_) {
-    measure->add_events(summary["events"]);
-    for (const std::string& note : measure->event_notes()) summary["event_notes"].push_back(note);
-    if (const auto entry = measure->summary(); !entry.is_null()) summary[kind->key] = entry;
+    measure->add_to(summary);
+    for (std::string& note : measure->event_notes()) summary.event_notes.push_back(std::move(note));
   }
 }
 
-void Measures::add_warnings(nlohmann::ordered_json& warnings) const {
+void Measures::add_warnings(std::vector<Warning>& warnings) const {
   std::int64_t most = 0;
   for (const auto& [kind, measure] : requested_) most = std::max(most, measure->unseen_steps());
   if (most == 0) return;
-  warnings.push_back({{"kind", "long_step"},
-                      {"message", fmt::format("nobody could look closely into {}: points of a section and events may "
-                                              "have been missed there; try a smaller dt",
-                                              most == 1 ? "1 long step" : fmt::format("{} long steps", most))}});
+  warnings.push_back({"long_step", fmt::format("nobody could look closely into {}: points of a section and events may "
+                                               "have been missed there; try a smaller dt",
+                                               most == 1 ? "1 long step" : fmt::format("{} long steps", most))});
 }
 
 bool Measures::stopped() const {

@@ -20,10 +20,10 @@ class Measures {
   std::vector<NamedObserver> observers() const;
   /// The run has ended, where nobody could know before: what waits for a later step is brought up to this one.
   void reach_the_end(const Frame& end);
-  /// Adds an entry for each to the summary.
-  void add_to(nlohmann::ordered_json& summary) const;
+  /// Adds what each has found to the summary.
+  void add_to(Summary& summary) const;
   /// What is to be said of steps that were too long for them.
-  void add_warnings(nlohmann::ordered_json& warnings) const;
+  void add_warnings(std::vector<Warning>& warnings) const;
   /// Whether one of them has ended the run.
   bool stopped() const;
 

@@ -1,20 +1,17 @@
 // output.observables: expressions of the user, averaged over every step; in a sweep three columns each.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/step_sums.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
 #include "run_keys.hpp"
+#include "summary_fields.hpp"
 
 namespace hamflow {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The values of one expression over a run.
 struct Seen {
@@ -62,13 +59,11 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
     }
     return all;
   }
-  Json summary() const override {
-    Json all = Json::object();
+  void add_to(Summary& summary) const override {
     const std::vector<double> found = row();
     for (std::size_t i = 0; i < seen_.size(); ++i) {
-      all[observables_[i].name] = {{"initial", found[3 * i]}, {"mean", found[3 * i + 1]}, {"final", found[3 * i + 2]}};
+      summary.observables.push_back({observables_[i].name, found[3 * i], found[3 * i + 1], found[3 * i + 2]});
     }
-    return all;
   }
 
  private:
@@ -92,6 +87,13 @@ std::vector<std::string> columns_of_observables(const Scenario& first) {
   return all;
 }
 
+template <class Ar>
+void observables_entry(Ar& ar, Summary& summary) {
+  if (Ar::reading || !summary.observables.empty()) {
+    ar.by_name(output_keys().observables.name, summary.observables);
+  }
+}
+
 }  // namespace
 
 MeasureKind measure_observables() {
@@ -101,14 +103,17 @@ MeasureKind measure_observables() {
           .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
             return std::make_unique<ObservablesMeasure>(scenario.observables);
           },
+          .write = observables_entry,
+          .read = observables_entry,
           .text =
-              [](const Json& found) {
-                std::vector<std::string> all;
-                for (const auto& [name, seen] : found.items()) {
-                  all.push_back(fmt::format("{} {} -> {}, mean {}", name, value_text(seen["initial"], "{:.6g}"),
-                                            value_text(seen["final"], "{:.6g}"), value_text(seen["mean"], "{:.17g}")));
-                }
-                return joined(all, "; ");
+              [](const Summary& s) {
+                return joined(
+                    s.observables,
+                    [](const ObservableSummary& seen) {
+                      return fmt::format("{} {} -> {}, mean {}", seen.name, value_text(seen.initial, "{:.6g}"),
+                                         value_text(seen.final, "{:.6g}"), value_text(seen.mean, "{:.17g}"));
+                    },
+                    "; ");
               },
           .columns = columns_of_observables};
 }

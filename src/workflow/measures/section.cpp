@@ -1,19 +1,16 @@
 // run.section: the points of a Poincare section, recorded beside the samples.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
 #include "recorder.hpp"
 #include "run_keys.hpp"
+#include "summary_fields.hpp"
 
 namespace hamflow {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 class SectionMeasure final : public Measure {
  public:
@@ -23,15 +20,24 @@ class SectionMeasure final : public Measure {
         }) {}
   Observer& observer() override { return finder_; }
   std::int64_t unseen_steps() const override { return finder_.unseen(); }
-  Json summary() const override {
-    Json all{{"points", finder_.points()}, {"max_residual", finder_.max_residual()}};
-    if (const std::string message = finder_.search().message(); !message.empty()) all["message"] = message;
-    return all;
+  void add_to(Summary& summary) const override {
+    summary.section = {static_cast<std::int64_t>(finder_.points()), finder_.max_residual(), finder_.search().message()};
   }
 
  private:
   SectionFinder finder_;
 };
+
+std::string section_line(const SectionSummary& found) {
+  std::string line = counted(static_cast<std::size_t>(found.points), "point");
+  if (found.points > 0) line += fmt::format(", at most {} off it", number_text(found.max_residual, "{:.2g}"));
+  return line + (found.message.empty() ? "" : "; " + found.message);
+}
+
+template <class Ar>
+void section_entry(Ar& ar, Summary& summary) {
+  ar.if_any(run_keys().section.name, summary.section);
+}
 
 }  // namespace
 
@@ -41,14 +47,9 @@ MeasureKind measure_section() {
           .requested = [](const Scenario& scenario) { return scenario.section.has_value(); },
           .make_of_run = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
               -> std::unique_ptr<Measure> { return std::make_unique<SectionMeasure>(scenario, simulation, recorder); },
-          .text =
-              [](const Json& found) {
-                const auto points = found["points"].get<std::size_t>();
-                std::string line = counted(points, "point");
-                if (points > 0)
-                  line += fmt::format(", at most {} off it", number_text(found["max_residual"], "{:.2g}"));
-                return line + (found.contains("message") ? "; " + found["message"].get<std::string>() : "");
-              }};
+          .write = section_entry,
+          .read = section_entry,
+          .text = [](const Summary& s) { return s.section ? section_line(*s.section) : std::string(); }};
 }
 
 }  // namespace hamflow

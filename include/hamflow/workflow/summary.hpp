@@ -1,0 +1,230 @@
+// The summary of a run as a struct. The command's output and summary.json are made from it.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hamflow/core/method_info.hpp"
+#include "hamflow/problems/support/two_bodies.hpp"
+#include "hamflow/run/simulation.hpp"
+#include "hamflow/scenario/value.hpp"
+#include "hamflow/verify/certificate.hpp"
+#include "hamflow/verify/long_number.hpp"
+
+namespace hamflow {
+
+/// Values with names, in the order in which they are reported.
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+
+/// A problem found in a run that did not fail.
+struct Warning {
+  std::string kind;  // "energy_error", "long_step", ...
+  std::string message;
+};
+/// "kind: message" of each.
+std::vector<std::string> warning_lines(const std::vector<Warning>& warnings);
+
+/// Why a run failed.
+struct RunError {
+  std::string kind;       // the name of an Outcome, or "file"
+  std::int64_t step = 0;  // the step that failed; of a file, the last step that was taken
+  double t = 0;           // time of the last good state
+  std::string message;    // a sentence that says what happened
+  std::string hint;       // a sentence that says what to try
+  std::string details;    // the numbers of a step that found no solution; else empty
+};
+
+/// Positions and momenta.
+struct StateSummary {
+  std::vector<double> q;
+  std::vector<double> p;
+  FrameDigits digits{};   // time, q and p with all digits in arithmetic beyond double; else empty
+  bool is_large = false;  // too many numbers for a summary: q, p and their digits are empty
+  std::string dataset{};  // of a large state, the dataset of the result file that holds it; empty: no file does
+};
+struct StateAtTime : StateSummary {
+  double t = 0;
+};
+
+/// The energy H(q, p). If H depends on t: H minus the work of the drive.
+struct EnergySummary {
+  LongNumber initial;                              // in arithmetic beyond double with all digits
+  LongNumber final;                                // the same
+  LongNumber max_error;                            // |H - H0| over every step
+  std::optional<double> scale;                     // max(|H0|, |T| + |V|, p dH/dp); none: the run is that of a map
+  std::optional<LongNumber> max_relative_error{};  // max_error/scale; none: H is 0 at the start, or a map
+};
+
+/// H(q, p, t) of a driven system.
+struct HamiltonianSummary {
+  double initial = 0;
+  double final = 0;
+};
+
+struct InvariantSummary {
+  std::string name;
+  bool is_list = false;  // JSON has a list, not a number
+  InvariantExcursion seen;
+  /// Norm of the largest deviation; none if a number at the start or at the end is not finite.
+  std::optional<LongNumber> max_error() const;
+};
+
+/// The grid of the arithmetic "lattice".
+struct LatticeUnits {
+  double position = 0;
+  double momentum = 0;
+};
+
+/// The range of a quantity over all steps, and the times at the end of the two steps.
+struct DiagnosticRange {
+  double min = 0;
+  double t_min = 0;
+  double max = 0;
+  double t_max = 0;
+};
+/// Conditioning of the implicit steps; none before the first step.
+struct DiagnosticsSummary {
+  std::optional<DiagnosticRange> condition_tangent;
+  std::optional<DiagnosticRange> determinant_tangent;
+  std::optional<DiagnosticRange> condition_inverse_mass;
+};
+
+/// The orbit in a central force, from the effective potential. In arithmetic beyond double with all digits.
+struct OrbitSummary {
+  std::string type;   // "circle", "bounded closed", "bounded open", "unbounded"
+  std::string conic;  // "circle", "ellipse", "parabola", "hyperbola", "line"; empty: no conic
+  LongNumber r_min;
+  LongNumber r_max;                     // infinite: not bounded
+  LongNumber circular_radius;           // NaN: there is no circular orbit
+  std::optional<bool> circular_stable;  // none: there is no circular orbit
+  LongNumber apsidal_angle;             // rad, from pericentre to apocentre or infinity
+  LongNumber radial_period;             // from pericentre to pericentre
+  bool closed = false;
+  double revolutions = 0;     // until the orbit closes; NaN if it does not
+  double radial_periods = 0;  // the same
+  bool falls_into_centre = false;
+  /// Change of each number by one rounding of the start; none: not known. The list is empty in double.
+  Named<std::optional<double>> uncertainty{};
+};
+
+/// The exact state at the final time, and the distance of the run from it.
+struct ExactSummary {
+  std::vector<double> q;
+  std::vector<double> p;
+  double max_difference = 0;          // of the group of numbers with the largest relative difference
+  double relative_difference = 0;     // max_difference/size of this group
+  Named<double> differences;          // of each group of numbers with the same unit
+  std::optional<double> uncertainty;  // of the closed form; none in double
+};
+
+/// Linear solves per step of an implicit method.
+struct NewtonSummary {
+  std::int64_t min = 0;
+  double mean = 0;
+  std::int64_t max = 0;
+  std::int64_t stagnated = 0;  // steps accepted at the rounding level above the tolerance
+  std::string iteration;       // the iteration that was chosen automatically; empty: Newton's, or as requested
+};
+
+/// A changed setting of a session.
+struct SessionChange {
+  std::int64_t step = 0;
+  double time = 0;
+  std::string what;  // e.g. "dt = 0.05"
+};
+
+/// run.lyapunov: the exponents of the method's own steps.
+struct LyapunovSummary {
+  std::vector<double> exponents;
+  std::vector<double> standard_errors;  // of each
+  bool steady = false;                  // the largest exponent grew steadily
+  std::vector<double> pair_sums;        // lambda_i + its partner; empty unless all exponents are computed
+  double time = 0;                      // length of the average; for a map, in steps
+  std::int64_t renormalisations = 0;
+  std::optional<std::int64_t> stopped_at_step;  // the step that could not be differentiated; none: all could
+};
+
+/// run.eigenvalues: of the derivative of all steps.
+struct EigenvalueSummary {
+  std::optional<std::vector<std::complex<double>>> values;  // partners next to each other; none: see message
+  double pair_defect = 0;                                   // max |lambda lambda' - 1| of partners
+  double symplectic_defect = 0;                             // the largest entry of |M^T J M - J|
+  double norm = 0;                                          // the largest row sum of |M|
+  std::string message;                                      // why there are no values; else empty
+  std::int64_t steps = 0;                                   // M is the derivative of this many steps
+};
+
+/// run.section: the points themselves are in the tables of the run.
+struct SectionSummary {
+  std::int64_t points = 0;
+  double max_residual = 0;  // largest distance of a point from the section
+  std::string message;      // why points may be missing; else empty
+};
+
+/// run.events: the event that ended the run, and the state there.
+struct StopSummary : StateAtTime {
+  std::string event;
+};
+
+/// output.observables: an expression, evaluated at every step.
+struct ObservableSummary {
+  std::string name;
+  double initial = 0;
+  double mean = 0;  // over the steps, without the start
+  double final = 0;
+};
+
+/// The results of a run, in the units of the scenario. JSON has null for numbers that are not finite.
+struct Summary {
+  std::string status;  // "done", "interrupted", "failed"
+  std::string problem;
+  std::string method;  // canonical, e.g. "cg(1,5)"
+  std::string arithmetic;
+  std::string kernel;
+  std::string instruction_set{};          // of the kernel "fast"; else empty
+  std::optional<LatticeUnits> lattice{};  // of the arithmetic "lattice"
+  Value::Table parameters{};              // of the problem, defaults included
+  double dt = 0;
+  std::int64_t steps = 0;               // taken
+  std::optional<StateSummary> start{};  // none: the scenario gives the start itself, not its energy
+  StateAtTime final{};
+  EnergySummary energy{};
+  std::optional<HamiltonianSummary> hamiltonian{};  // none: H does not depend on t
+  std::vector<InvariantSummary> invariants{};
+  std::optional<ConstraintResiduals> constraints{};  // the largest over every step; none: there are no constraints
+  std::optional<DiagnosticsSummary> diagnostics{};   // none: not requested by method.diagnostics
+  std::vector<Body> bodies{};                        // of a two-body problem at the end; else empty
+  std::optional<OrbitSummary> orbit{};               // none: no central force, or a map
+  std::optional<ExactSummary> exact{};               // none: no closed form is known
+  Effort effort{};                                   // evaluations and linear solves
+  std::optional<NewtonSummary> newton{};             // none: the method is explicit
+  Named<std::int64_t> events{};                      // counts: bounces by wall, halved steps, "user:NAME"
+  std::vector<std::string> event_notes{};            // remarks about these counts
+  std::optional<LyapunovSummary> lyapunov{};
+  std::optional<EigenvalueSummary> eigenvalues{};
+  std::optional<SectionSummary> section{};
+  std::optional<StopSummary> stopped_by{};  // none: no event ended the run
+  std::vector<ObservableSummary> observables{};
+  std::vector<Warning> warnings{};
+  std::optional<RunCertificate> certificate{};  // none: not requested, or a map
+  double wall_seconds = 0;                      // of all parts of the run
+  double steps_per_second = 0;
+  std::optional<RunError> error{};       // none: the run did not fail
+  std::vector<SessionChange> changes{};  // of a session; empty for runs
+};
+
+/// The text of summary.json.
+std::string summary_json(const Summary& summary);
+/// The summary for people, one line for each entry.
+std::string summary_text(const Summary& summary);
+/// Reads the text of summary.json. The parts of `effort` and `certificate` that JSON does not have keep their default
+/// values.
+/// @throws std::exception if the text is not such JSON
+Summary read_summary(const std::string& json);
+
+}  // namespace hamflow
