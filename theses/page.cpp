@@ -1,15 +1,18 @@
 // index.html: a summary of verdicts, then a section for each experiment. It holds no times: the same results make the
 // same page, byte for byte, however often the work was interrupted. What does not depend on results is page/page.html.
-// It shows the figures of the folder and needs nothing else; it is readable on a telephone, in print without colour,
-// and by a screen reader: verdicts are words, figures have alternative texts.
+// It is one file that needs no other, readable on a telephone, in print without colour, and by a screen reader:
+// verdicts are words, figures have alternative texts.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "embedded.hpp"
 #include "report.hpp"
+#include "slim_svg.hpp"
 #include "store.hpp"
 
 namespace hamflow::reproduction {
@@ -33,6 +36,37 @@ std::string escaped_html(const std::string& text) {
     }
   }
   return all;
+}
+
+/// Text as part of an address within double quotes.
+std::string escaped_address(const std::string& text) {
+  std::string all;
+  for (const char c : text) {
+    switch (c) {
+      case '%':
+      case '#':
+      case '"':
+      case '<':
+      case '>':
+      case '&':
+        all += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        break;
+      case '\n':
+      case '\t':
+        all += ' ';  // which an address would lose
+        break;
+      default:
+        all += c;
+    }
+  }
+  return all;
+}
+
+std::string text_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 std::string class_of(ClaimVerdict verdict) {
@@ -152,11 +186,12 @@ std::string table_html(const TextTable& table) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string figures_html(const std::string& folder, const Kept& kept) {
+std::string figures_html(const fs::path& folder, const Kept& kept) {
   std::string all;
   for (const auto& [name, caption, words] : kept.drawings) {
-    all += fmt::format("<figure><figcaption>{}</figcaption><img alt=\"{}\" src=\"{}/{}.svg\"></figure>\n",
-                       escaped_html(caption), escaped_html(words), folder, escaped_html(name));
+    all += fmt::format(
+        "<figure><figcaption>{}</figcaption><img alt=\"{}\" src=\"data:image/svg+xml;charset=utf-8,{}\"></figure>\n",
+        escaped_html(caption), escaped_html(words), escaped_address(slim_svg(text_of_file(folder / (name + ".svg")))));
   }
   return all.empty() ? "" : "<div class=\"figures\">\n" + all + "</div>\n";
 }
@@ -213,8 +248,8 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
                                  escaped_html(pages_text(info.page)), name_of(report.extent));
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
   if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
-  const std::string folder = "reproduction/" + info.id;
-  const auto kept = kept_in(top / folder, fingerprint_of(info.id, report.extent));
+  const fs::path folder = top / "reproduction" / info.id;
+  const auto kept = kept_in(folder, fingerprint_of(info.id, report.extent));
   if (kept) text += figures_html(folder, *kept);
   text += claims_html(info.id, report.claims);
   if (!kept) return text;
