@@ -6,6 +6,7 @@ import os
 from typing import Any, Mapping
 
 from . import _core
+from ._errors import Error
 from ._problem import Problem
 
 
@@ -39,7 +40,11 @@ class Scenario:
     def __init__(self, tree: Mapping[str, Any] | None = None, /, *, problem: Problem | Mapping[str, Any] | None = None,
                  method: str | Mapping[str, Any] | None = None, run: Mapping[str, Any] | None = None,
                  output: Mapping[str, Any] | None = None) -> None:
-        all_tables = {name: dict(table) for name, table in tree.items()} if tree is not None else {}
+        all_tables = {}
+        for name, table in (tree or {}).items():
+            if not isinstance(table, Mapping):
+                raise Error(f"{name}: found {table!r}; allowed a table, as a dict")
+            all_tables[name] = dict(table)
         if problem is not None:
             all_tables["problem"] = dict(problem.table if isinstance(problem, Problem) else problem)
         if method is not None:

@@ -136,6 +136,8 @@ class Simulation:
             Where t is none, naming the nearest; `sample(at=...)` takes any time.
         """
         steps = (t - self.t) / self.dt
+        if not np.isfinite(steps):
+            raise Error(f"t: found {t!r}; allowed finite times")
         whole = round(steps)
         if not abs(steps - whole) <= 1e-9 * max(1.0, abs(steps)):
             raise Error(f"t: found {t!r}, which is no whole number of steps from t = {self.t!r}; the nearest are "

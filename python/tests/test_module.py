@@ -136,6 +136,12 @@ def test_integrate_names_the_nearest_times():
         simulation().integrate(0.99)
 
 
+@pytest.mark.parametrize("t", [float("nan"), float("inf"), -1.0])
+def test_integrate_refuses_what_is_no_later_time(t):
+    with pytest.raises(hf.Error, match="t:"):
+        simulation().integrate(t)
+
+
 def test_views_keep_their_memory_alive_and_cannot_be_written():
     q = simulation().sample(steps=1000).q
     wanted = q.copy()
@@ -223,6 +229,11 @@ def test_wrong_requests_are_rejected(keys):
 def test_hostile_arguments_raise_and_do_nothing_else(keys):
     with pytest.raises((hf.Error, TypeError)):
         simulation(**keys)
+
+
+def test_a_table_is_a_dict():
+    with pytest.raises(hf.Error, match="problem: found 5"):
+        hf.Scenario({"problem": 5})
 
 
 def test_every_error_at_once():
