@@ -66,7 +66,7 @@ class Certificate(CommandCase):
     def test_the_element_loses_angular_momentum_in_cartesian_coordinates(self):
         c, _ = self.certificate("{name='cg', quadrature=5}", steps=20000)
         self.assertEqual(c["momentum_maps"]["angular_momentum"]["conserved"], "not")
-        self.assertIn(c["drift"], ("bounded", "random walk"))
+        self.assertEqual(c["drift"], "random walk")  # at rounding: 2.5e-16 of the scale
         polar, _ = self.certificate("{name='cg', quadrature=5}", "problem.coordinates=polar", steps=2000)
         self.assertEqual(polar["momentum_maps"]["angular_momentum"],
                          {"max_error": 0, "relative": 0, "conserved": "to rounding",
