@@ -420,6 +420,18 @@ def test_reprs_are_one_line():
         assert "\n" not in repr(each) and len(repr(each)) > 10
 
 
+def test_the_examples_of_the_readme(tmp_path, monkeypatch, capsys):
+    import pathlib
+    import re
+
+    text = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text()
+    monkeypatch.chdir(tmp_path)
+    pathlib.Path("kepler.toml").write_text(re.search(r"```toml\n(# kepler\.toml.*?)```", text, re.S)[1])
+    for block in re.findall(r"```python\n(.*?)```", text, re.S):
+        exec(compile(block, "README.md", "exec"), {})
+    assert len(capsys.readouterr().out.splitlines()) == 3
+
+
 def test_doctests():
     import doctest
 
