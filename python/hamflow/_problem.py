@@ -89,7 +89,7 @@ class Problem:
     @property
     def formula(self) -> str:
         """H as text."""
-        return str(self._core.formula)
+        return str(self._core.formula).removeprefix("H = ")
 
     @property
     def coordinates(self) -> list[str]:

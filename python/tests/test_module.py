@@ -5,6 +5,7 @@ import gc
 import json
 import math
 import os
+import pathlib
 import pickle
 import signal
 import subprocess
@@ -420,8 +421,23 @@ def test_reprs_are_one_line():
         assert "\n" not in repr(each) and len(repr(each)) > 10
 
 
+EXAMPLES = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples" / "python").glob("*.py"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda file: file.stem)
+def test_examples_make_their_figure(example, tmp_path):
+    module = str(pathlib.Path(hf.__file__).resolve().parents[1])
+    done = subprocess.run([sys.executable, str(example)], cwd=tmp_path, capture_output=True, text=True,
+                          env=os.environ | {"PYTHONPATH": module})
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / (example.stem + ".png")).stat().st_size > 5000
+
+
+def test_there_are_examples():
+    assert len(EXAMPLES) >= 5
+
+
 def test_the_examples_of_the_readme(tmp_path, monkeypatch, capsys):
-    import pathlib
     import re
 
     text = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text()
