@@ -16,6 +16,7 @@
 #include "hamflow/scenario/gas_start.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/convert.hpp"
+#include "hamflow/workflow/open_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
 #include "hamflow/workflow/run.hpp"
 #include "hamflow/workflow/sweep.hpp"
@@ -403,8 +404,8 @@ void read_h5(const Template& of, const fs::path& folder, std::size_t how) {
   const fs::path file = folder / of.file;
   switch (how % 4) {
     case 0:
-      attempt([&] { (void)read_for_figure(file, "energy-error"); });
-      attempt([&] { (void)opening_of(file); });
+      attempt([&] { (void)opening_of(read_for_figure(file, {"energy-error"})); });
+      attempt([&] { (void)open_run(file); });
       return;
     case 1:
       attempt([&] {
