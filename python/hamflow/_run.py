@@ -175,7 +175,8 @@ class Run:
     def __repr__(self) -> str:
         worst = self.summary.get("energy", {}).get("max_relative_error")
         error = f", energy error {worst:.2g}" if isinstance(worst, float) else ""
-        return f"<hamflow.Run {self.scenario!r:.60}: {self.status}, {len(self.t)} samples{error}>"
+        core = self.scenario._core
+        return f"<hamflow.Run {core.problem}, {core.method}: {self.status}, {len(self.t)} samples{error}>"
 
     def _repr_html_(self) -> str:
         rows = [("status", self.status), ("problem", self.summary.get("problem", "")),
