@@ -430,8 +430,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Input input(data, size);
   const Template& of = templates()[input.below(templates().size())];
   const fs::path folder = work_folder() / "x";
-  fs::remove_all(folder);
-  fs::copy(of.folder, folder);
+  std::error_code interrupted;  // by the clock of the fuzzer
+  do {
+    fs::remove_all(folder);
+    interrupted.clear();
+    fs::copy(of.folder, folder, interrupted);
+  } while (interrupted == std::errc::interrupted);
   const fs::path file = folder / of.file;
   if (!of.places.empty()) {
     const std::size_t how = input.byte();
