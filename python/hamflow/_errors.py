@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class Error(ValueError):
-    """What was asked for is not possible; the message says what is."""
+    """A request that is refused. The message names what is wrong and what is allowed."""
 
 
 class Rejection(Error):

@@ -8,7 +8,7 @@
 namespace hamflow::python {
 
 /// True, a whole number, a number, a text, a list (or array), a dict; Decimal and Fraction become texts, whose digits
-/// every arithmetic reads. @throws Error naming the key where it is none of these
+/// every arithmetic reads. @throws Error naming the key if the value is of another type
 Value value_of(const pybind11::handle& object, const std::string& key);
 Value::Table table_of(const pybind11::dict& dict, const std::string& path = {});
 

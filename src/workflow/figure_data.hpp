@@ -15,7 +15,7 @@
 namespace hamflow {
 
 /// The run.h5, or reverse.h5, of a folder or file.
-/// @throws FileError where what is named is known to be something else than a run or a reversal
+/// @throws FileError if the folder is that of a sweep, a comparison or an unfinished reversal, or the file is sweep.h5
 std::filesystem::path stored_run_in(const std::filesystem::path& run);
 /// The scenario that a run.h5 carries.   @throws FileError
 Scenario scenario_of(const StoredRun& run, const std::filesystem::path& file);

@@ -65,8 +65,6 @@ class Column {
   std::vector<std::string> row_of_texts(std::size_t k) const;
   /// The values as they are stored: doubles, 64-bit integers, or texts filled up with zero bytes.
   std::span<const std::byte> bytes() const { return {bytes_.get(), size_}; }
-  /// Bytes of one value.
-  std::size_t bytes_of_value() const { return bytes_of_value_; }
 
   void reserve(std::size_t rows);
   /// Removes the rows behind the first `rows`.
@@ -106,7 +104,7 @@ class Table {
 
   /// Null where there is none.
   const Column* find(std::string_view name) const;
-  /// @throws Error naming the nearest column where there is none of that name
+  /// @throws Error if no column has that name; the message proposes the nearest one
   const Column& operator[](std::string_view name) const;
 
   void cut(std::size_t rows);

@@ -44,7 +44,8 @@ struct ChosenProblem {
 /// @throws Rejection for what is wrong with the rest of it
 ChosenProblem read_problem_tree(const Value::Table& problem);
 
-/// The scenario, or what is wrong with it. Its text is scenario_text(tree).
+/// Reads a scenario from a tree. The complaints of the result list everything that is wrong; the text of the scenario
+/// is scenario_text(tree).
 Reading read_scenario_tree(const Value::Table& tree, const std::string& name);
 
 }  // namespace hamflow

@@ -51,9 +51,9 @@ void Measures::add_warnings(std::vector<Warning>& warnings) const {
   std::int64_t most = 0;
   for (const auto& [kind, measure] : requested_) most = std::max(most, measure->unseen_steps());
   if (most == 0) return;
-  warnings.push_back({"long_step", fmt::format("nobody could look closely into {}: points of a section and events may "
+  warnings.push_back({"long_step", fmt::format("{} too long to be searched: points of a section and events may "
                                                "have been missed there; try a smaller dt",
-                                               most == 1 ? "1 long step" : fmt::format("{} long steps", most))});
+                                               most == 1 ? "1 step was" : fmt::format("{} steps were", most))});
 }
 
 bool Measures::stopped() const {
