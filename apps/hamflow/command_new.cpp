@@ -69,7 +69,8 @@ const ProblemEntry& chosen(const NewOptions& options) {
     });
   };
   // A choice may be one of other choices alone: the dimension of a pendulum is one in Cartesian coordinates.
-  const ProblemEntry& usual = usual_problem(options.problem, variant);
+  const auto usual_entry = usual_problem(options.problem, variant);
+  const ProblemEntry& usual = *usual_entry;
   const auto lacks = lacking(usual);
   if (lacks == variant.end()) return usual;
   for (const ProblemEntry& entry : problems()) {

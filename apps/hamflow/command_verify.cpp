@@ -152,7 +152,7 @@ int verify_command(const VerifyOptions& options) {
     for (const MethodSpec& spec : specs) {
       jobs.push_back({spec});
       // A second copy of the state meets walls elsewhere.
-      if (at_walls && !describe(spec).carries_copy && find_problem(options.problem, at_walls->variant).accepts(spec)) {
+      if (at_walls && !describe(spec).carries_copy && find_problem(options.problem, at_walls->variant)->accepts(spec)) {
         jobs.push_back({spec, at_walls});
       }
     }

@@ -192,7 +192,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
     return;
   }
   try {
-    scenario_.problem = &find_problem(GasKeys::problem, request.variant);
+    scenario_.problem = find_problem(GasKeys::problem, request.variant);
   } catch (const Error& error) {
     table.complain(GasKeys::pair, error.what());
     return;
@@ -437,7 +437,7 @@ void ScenarioReader::read_box(TomlTable& table) {
     walls.intervals.push_back({names[i], i, "-" + half, half});
   }
   put_among(walls, scenario_.request.variant);
-  scenario_.problem = &find_problem(GasKeys::problem, scenario_.request.variant);
+  scenario_.problem = find_problem(GasKeys::problem, scenario_.request.variant);
 }
 
 namespace {

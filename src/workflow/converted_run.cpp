@@ -36,7 +36,7 @@ class ConvertedRun::Impl {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
     check_states(scenario(), run_.description, file);
-    target_ = &in_coordinates(*scenario().problem, to);
+    target_ = in_coordinates(scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
     names_ = state_names(*target_, scenario().request.parameters, target_->info.coordinates.size());
     convert_all();
@@ -84,7 +84,7 @@ class ConvertedRun::Impl {
   }
   std::string write_h5(const fs::path& target) const {
     const CanonicalState start = StateConverter(
-        *scenario().problem, *target_, scenario().request.parameters)({scenario().start_q, scenario().start_p});
+        scenario().problem, target_, scenario().request.parameters)({scenario().start_q, scenario().start_p});
     std::string note;
     std::string text =
         "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
@@ -148,7 +148,7 @@ class ConvertedRun::Impl {
     Column p(of_p);
     Column q_digits = digits_of(of_q);
     Column p_digits = digits_of(of_p);
-    StateConverter convert(*scenario().problem, *target_, scenario().request.parameters);
+    StateConverter convert(scenario().problem, target_, scenario().request.parameters);
     for (std::size_t k = 0; k < given_.rows(); ++k) {
       try {
         CanonicalState state = convert({given_["q"].row(k), given_["p"].row(k)});
@@ -182,7 +182,7 @@ class ConvertedRun::Impl {
   /// In the run's arithmetic, with the whole turns that the doubles have been given. The doubles become those of the
   /// digits.
   DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
-    DigitState state = in_chart_of(*target_, without_own_walls(*scenario().problem), scenario().request.parameters,
+    DigitState state = in_chart_of(*target_, *without_own_walls(scenario().problem), scenario().request.parameters,
                                    arithmetic(), given);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
       const auto& angles = target_->info.angles;
@@ -217,7 +217,7 @@ class ConvertedRun::Impl {
   Reading reading_;
   double turn_ = 0;
   std::string turning_;
-  const ProblemEntry* target_ = nullptr;  // the problem in the coordinates `to`
+  std::shared_ptr<const ProblemEntry> target_{};  // the problem in the coordinates `to`
 };
 
 ConvertedRun::ConvertedRun(const fs::path& run, const std::string& to)
