@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numeric>
 
 #include "bulk_gas.hpp"
@@ -12,6 +11,7 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
+#include "made_entries.hpp"
 #include "mp_simulation.hpp"
 #include "outside_simulation.hpp"
 #include "recipes.hpp"

@@ -166,9 +166,9 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
     for (const GroupDistance& group : group_distances(groups, sizes, state, frame(1, 3))) {
       if (!(group.relative.value > most)) continue;
       const bool is_faster_possible = turn_of_springs(scenario) < most_turn_of_springs / 2;
-      const std::string advice =
-          is_faster_possible ? fmt::format("omega = {:.2g}", most_turn_of_springs / std::abs(scenario.dt))
-                             : std::string("a smaller dt and a larger omega, with omega dt below 1/4");
+      const std::string advice = is_faster_possible
+                                     ? fmt::format("omega = {:.2g}", most_turn_of_springs / std::abs(scenario.dt))
+                                     : std::string("a smaller dt and a larger omega, with omega dt below 1/4");
       all.push_back(
           {"parted_copies",
            fmt::format("the two copies of the state have parted by {:.2g} of the size of {} at t = {:.4g}: what comes "
