@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"

@@ -43,7 +43,7 @@ Region region_for(const std::string& problem, const std::vector<MethodSpec>& spe
   const auto accepted = [&](const ProblemEntry& entry) {
     return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
   };
-  if (!accepted(usual_problem(problem))) {
+  if (!accepted(*usual_problem(problem))) {
     for (const ProblemEntry& entry : problems()) {
       if (entry.info.name != problem || !accepted(entry)) continue;
       return region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});

@@ -35,10 +35,8 @@ const ProblemEntry* with_coordinates(const std::vector<const ProblemEntry*>& cha
   return found == charts.end() ? nullptr : *found;
 }
 
-/// An entry of problems() lives as long as the program.
-std::shared_ptr<const ProblemEntry> entry_of_list(const ProblemEntry& entry) {
-  return {std::shared_ptr<void>(), &entry};
-}
+/// Of an entry that lives long enough, as those of problems() do.
+std::shared_ptr<const ProblemEntry> unowned(const ProblemEntry& entry) { return {std::shared_ptr<void>(), &entry}; }
 
 /// One problem that has both, with so many coordinates if there is one. @throws Error
 std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntry>> charts_named(
@@ -52,7 +50,7 @@ std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntr
     if (first == nullptr || second == nullptr) continue;
     if (found.first == nullptr || (first->dimension == size && found.first->dimension != size)) found = {first, second};
   }
-  if (found.first != nullptr) return {entry_of_list(*found.first), entry_of_list(*found.second)};
+  if (found.first != nullptr) return {unowned(*found.first), unowned(*found.second)};
   throw Error("found no way from " + from + " to " + to + "; allowed: " + what_charts_there_are());
 }
 
@@ -65,8 +63,8 @@ std::shared_ptr<const ProblemEntry> without_own_walls(const std::shared_ptr<cons
 }
 
 std::string coordinates_of(const ProblemEntry& behind) {
-  const ProblemEntry& problem = without_own_walls(behind);
-  return choice_of(problem.info, problem.info.chart_key);
+  const auto inside = without_own_walls(unowned(behind));
+  return choice_of(inside->info, inside->info.chart_key);
 }
 
 std::string what_charts_there_are() {
@@ -134,7 +132,7 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
       const bool is_chart = choice.first == entry.info.chart_key || choice.first == problem.info.chart_key;
       return is_chart || other.empty() || other == choice.second;
     });
-    if (same) return entry_of_list(entry);
+    if (same) return unowned(entry);
   }
   std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
   variant[problem.info.chart_key] = to;

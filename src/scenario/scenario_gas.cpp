@@ -453,7 +453,7 @@ std::string refused_by_size(const Request& request, std::size_t coordinates) {
   const std::string& name = request.method.name;
   const auto other_method = [&](std::initializer_list<std::string_view> candidates) {
     return "another method" +
-           with_fitting_methods(candidates, &find_problem(request.problem, request.variant), request.arithmetic);
+           with_fitting_methods(candidates, find_problem(request.problem, request.variant).get(), request.arithmetic);
   };
   if (name == "itoh-abe" && coordinates > ItohAbe::most_coordinates) {
     const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;

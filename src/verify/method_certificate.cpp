@@ -106,7 +106,7 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
   for (const Region& region : regions) {
     const ReversalEvidence back =
         reversal_evidence(request_on(region, method, random_state(region, 0)),
-                          find_problem(region.problem, region.variant), return_steps, std::nullopt);
+                          *find_problem(region.problem, region.variant), return_steps, std::nullopt);
     found.reversals.push_back({region.problem, back.steps, back.relative.value_or(0.0), back.relative.has_value(),
                                std::string(name(back.proves)), back.reason});
   }
