@@ -8,14 +8,11 @@ import sys
 import pytest
 
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples" / "python"
-NEEDS = {"sweep_to_pandas": "pandas", "sweep_mpi": "mpi4py"}
 SCRIPTS = sorted(file.stem for file in EXAMPLES.glob("*.py"))
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_script(name, tmp_path):
-    if name in NEEDS:
-        pytest.importorskip(NEEDS[name])
     command = [sys.executable, "-B", str(EXAMPLES / f"{name}.py")]
     environment = dict(os.environ)
     if name == "sweep_mpi":
