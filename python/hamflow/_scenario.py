@@ -40,11 +40,7 @@ class Scenario:
     def __init__(self, tree: Mapping[str, Any] | None = None, /, *, problem: Problem | Mapping[str, Any] | None = None,
                  method: str | Mapping[str, Any] | None = None, run: Mapping[str, Any] | None = None,
                  output: Mapping[str, Any] | None = None) -> None:
-        all_tables = {}
-        for name, table in (tree or {}).items():
-            if not isinstance(table, Mapping):
-                raise Error(f"{name}: found {table!r}; allowed a table, as a dict")
-            all_tables[name] = dict(table)
+        all_tables = tables_of(tree or {})
         if problem is not None:
             all_tables["problem"] = dict(problem.table if isinstance(problem, Problem) else problem)
         if method is not None:
@@ -106,12 +102,28 @@ class Scenario:
         return (Scenario.from_text, (str(self), self._name))
 
 
+def tables_of(tree: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a scenario, each a dict of its own."""
+    for name, table in tree.items():
+        if not isinstance(table, Mapping):
+            raise Error(f"{name}: found {table!r}; allowed a table, as a dict")
+    return {name: dict(table) for name, table in tree.items()}
+
+
 def scenario_of(given: Any) -> Scenario:
     """A scenario from whatever stands for one: itself, a dict, the name of a file."""
     if isinstance(given, Scenario):
         return given
+    text, name = text_of(given)
+    return Scenario.from_text(text, name)
+
+
+def text_of(given: Any) -> tuple[str, str]:
+    """The TOML text of whatever stands for a scenario, unchecked, and the name that stands in messages."""
+    if isinstance(given, Scenario):
+        return str(given), given._name
     if isinstance(given, Mapping):
-        return Scenario(given)
+        return _core.scenario_text(tables_of(given)), "scenario"
     if isinstance(given, (str, os.PathLike)):
-        return Scenario.load(given)
+        return _core.read_file(os.fspath(given)), os.fspath(given)
     raise TypeError(f"found {type(given).__name__}; allowed a Scenario, a dict of tables, or the name of a TOML file")

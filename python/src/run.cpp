@@ -7,25 +7,17 @@
 
 #include "bindings.hpp"
 #include "hamflow/scenario/rejection.hpp"
-#include "hamflow/verify/comparison.hpp"
-#include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "hamflow/workflow/open_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
 #include "signals.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
 namespace hamflow::python {
 
 namespace {
-
-Existing existing_named(const std::string& name) {
-  if (name == "error") return Existing::refuse;
-  if (name == "replace") return Existing::replace;
-  if (name == "resume") return Existing::resume;
-  throw Error("existing: found \"" + name + "\"; allowed \"error\", \"replace\", \"resume\"");
-}
 
 /// The tables of a run by name, each with its own memory.
 py::dict tables_of(RunTables tables) {

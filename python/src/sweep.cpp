@@ -8,6 +8,7 @@
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
 #include "signals.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -18,6 +19,7 @@ namespace {
 py::dict sweep_in_python(const std::string& text, const std::vector<std::string>& varied, bool zip, int threads,
                          const std::filesystem::path& folder, const std::string& existing,
                          const std::function<void(std::int64_t, std::int64_t)>& progress) {
+  const Existing what_to_do = existing_named(existing);
   Interrupts interrupts;
   SweepReport report;
   std::shared_ptr<Table> members;
@@ -27,9 +29,7 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
     ScenarioSweep sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads});
     if (!sweep.complaints().empty()) throw Rejection(sweep.complaints());
     if (!folder.empty()) {
-      auto wrong = sweep.keep_in(folder, existing == "replace"  ? Existing::replace
-                                         : existing == "resume" ? Existing::resume
-                                                                : Existing::refuse);
+      auto wrong = sweep.keep_in(folder, what_to_do);
       if (!wrong.empty()) throw Rejection(std::move(wrong));
     }
     const std::int64_t total = sweep.total_steps();

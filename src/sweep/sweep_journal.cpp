@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 
 namespace hamflow {
 
@@ -51,7 +52,7 @@ SweepPast read_journal(const std::filesystem::path& file) {
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   std::span<const std::byte> left = std::as_bytes(std::span(text));
   const auto damaged = [&](const std::string& how) {
-    return FileError(file.string() + " " + how + "; give --out another folder, or --force to begin anew");
+    return FileError(file.string() + " " + how + advice_to_begin_anew());
   };
   SweepPast past;
   std::uint64_t found[2] = {};
@@ -107,8 +108,8 @@ void SweepJournal::append(std::uint64_t member, const FinishedMember& finished) 
   while (!left.empty()) {
     const ssize_t count = write(descriptor_, left.data(), left.size());
     if (count < 0 && errno != EINTR) {
-      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) +
-                      "; the same command with --resume goes on with the members that are not done");
+      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) + "; the same with " +
+                      option_name("resume") + " goes on with the members that are not done");
     }
     if (count > 0) left = left.subspan(static_cast<std::size_t>(count));
   }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/hash.hpp"
 #include "hamflow/run/walls.hpp"
 #include "memory.hpp"
@@ -29,7 +30,7 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   const std::size_t members = varied_.members();
   if (const std::string wrong = refused_members(members, coordinates_of_first(reader), available_memory());
       !wrong.empty()) {
-    complaints_.push_back({"", 0, 0, "--vary", wrong});
+    complaints_.push_back({"", 0, 0, option_name("vary"), wrong});
     return;
   }
   rows_.resize(members);
