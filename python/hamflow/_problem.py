@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import html
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _html
 from ._trace import traced
 
 Numbers = npt.NDArray[np.float64]
@@ -148,7 +147,7 @@ class Problem:
         return f"<hamflow.Problem {self.name}: H = {self.formula}>"
 
     def _repr_html_(self) -> str:
-        return f"<code>H = {html.escape(self.formula)}</code>"
+        return _html.formula(f"H = {self.formula}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Problem, (self.table,))

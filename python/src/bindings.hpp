@@ -12,6 +12,7 @@ void bind_problem(pybind11::module_& m);
 void bind_scenario(pybind11::module_& m);
 void bind_run(pybind11::module_& m);
 void bind_compare(pybind11::module_& m);
+void bind_verify(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweep(pybind11::module_& m);
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "pages.hpp"
 #include "signals.hpp"
 #include "values.hpp"
 
@@ -60,6 +61,7 @@ void bind_compare(py::module_& m) {
       .def_readonly("json", &ComparisonReport::json)
       .def_readonly("text", &ComparisonReport::text)
       .def_readonly("warnings", &ComparisonReport::warnings)
+      .def("page", [](const ComparisonReport& report) { return dict_of(comparison_page(report.comparison)); })
       .def("draw", [](const ComparisonReport& report, const std::filesystem::path& file) {
         const py::gil_scoped_release unlocked;
         const std::string why_not = refused_comparison_figure(file);

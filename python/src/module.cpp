@@ -38,6 +38,7 @@ PYBIND11_MODULE(_core, m) {
   hamflow::python::bind_scenario(m);
   hamflow::python::bind_run(m);
   hamflow::python::bind_compare(m);
+  hamflow::python::bind_verify(m);
   hamflow::python::bind_simulation(m);
   hamflow::python::bind_sweep(m);
 }

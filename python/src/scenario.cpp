@@ -24,6 +24,7 @@ void bind_scenario(py::module_& m) {
       .def_readonly("steps", &Scenario::steps)
       .def_readonly("dt", &Scenario::dt)
       .def_readonly("notes", &Scenario::notes)
+      .def_readonly("figures", &Scenario::figures)
       .def_property_readonly("problem", [](const Scenario& s) { return s.request.problem; })
       .def_property_readonly("method", [](const Scenario& s) { return describe(s.request.method).name; })
       .def_property_readonly("arithmetic", [](const Scenario& s) { return s.request.arithmetic; })

@@ -10,9 +10,10 @@ namespace hamflow {
 namespace {
 
 constexpr std::size_t longest_formula = 2000;
-constexpr std::array greek{"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu",
-                           "nu", "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Delta",
-                           "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega"};
+constexpr std::array greek{"alpha",  "beta",   "gamma", "delta", "epsilon", "zeta",  "eta",   "theta",
+                           "kappa",  "lambda", "mu",    "nu",    "xi",      "pi",    "rho",   "sigma",
+                           "tau",    "phi",    "chi",   "psi",   "omega",   "Gamma", "Delta", "Theta",
+                           "Lambda", "Xi",     "Pi",    "Sigma", "Phi",     "Psi",   "Omega"};
 constexpr std::array known{"sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log"};  // commands of LaTeX
 constexpr std::array other_functions{"asin", "acos", "atan", "atan2", "abs"};
 
@@ -30,25 +31,25 @@ class TexWriter {
   /// Up to one of the closing characters, or the end.
   std::string sequence(std::string_view closing) {
     std::string all;
+    bool behind_operand = false;  // the next one is multiplied with it
     while (at_ < text_.size() && closing.find(text_[at_]) == std::string_view::npos) {
       const char c = text_[at_];
       if (begins_operand(c)) {
         const bool is_argument = c == '(' && at_ > 0 && is_letter(text_[at_ - 1]);  // V(r)
-        if (is_juxtaposed_ && !is_argument) all += " \\, ";
+        if (behind_operand && !is_argument) all += is_digit(c) ? " \\cdot " : " \\, ";
         all += quotient();
-        is_juxtaposed_ = true;
+        behind_operand = true;
         continue;
       }
       ++at_;
       if (c == ' ') continue;
       if (c == '*') {
-        is_juxtaposed_ = true;
+        behind_operand = true;
         continue;
       }
-      is_juxtaposed_ = false;
+      behind_operand = false;
       all += c == ',' ? ",\\; " : c == '<' ? " < " : std::string(" ") + plain(c) + " ";
     }
-    is_juxtaposed_ = false;
     return all;
   }
 
@@ -152,13 +153,14 @@ class TexWriter {
     if (name == "sum") name = "\\sum";
     if (is_among(known, name)) return {"\\" + name + (has_argument ? primary().tex : " ")};
     if (is_among(other_functions, name) && has_argument) return {"\\operatorname{" + name + "}" + primary().tex};
-    std::string base = is_among(greek, name)          ? "\\" + name
-                       : name == "eps"                ? "\\epsilon"
-                       : name == "\\sum"              ? name
-                       : name.size() > 1              ? "\\mathrm{" + name + "}"
-                                                      : name;
+    std::string base = is_among(greek, name) ? "\\" + name
+                       : name == "eps"       ? "\\epsilon"
+                       : name == "\\sum"     ? name
+                       : name.size() > 1     ? "\\mathrm{" + name + "}"
+                                             : name;
     std::string index;
-    while (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '_' || (is_letter(text_[at_]) && !index.empty()))) {
+    while (at_ < text_.size() &&
+           (is_digit(text_[at_]) || text_[at_] == '_' || (is_letter(text_[at_]) && !index.empty()))) {
       if (text_[at_] == '_' && at_ + 1 < text_.size() && text_[at_ + 1] == '{') {
         ++at_;
         index += primary().tex;
@@ -177,7 +179,6 @@ class TexWriter {
   std::string_view text_;
   std::size_t at_ = 0;
   bool in_bars_ = false;
-  bool is_juxtaposed_ = false;  // an operand is before: what comes next is multiplied with it
 };
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "memory.hpp"
 #include "on_threads.hpp"

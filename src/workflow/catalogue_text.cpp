@@ -132,7 +132,7 @@ void write_formula(std::ostream& out, const ProblemEntry& example) {
   for (const OptionInfo& option : formula_options()) out << option_row(option);
   for (const std::string& line : formula_language()) out << filled(line);
   out << "  initial = { q = [...], p = [...] } or { q, v }, or with energy and one component \"+\" or \"-\"\n"
-               "  a scenario to begin with: hamflow new formula; what is found of one: hamflow show my.toml\n";
+         "  a scenario to begin with: hamflow new formula; what is found of one: hamflow show my.toml\n";
 }
 
 /// What a scenario describes: its problem, typed or not, and how it starts.
@@ -145,8 +145,8 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
   if (const auto walls = walls_among(scenario.request.variant); walls && !gas) {
     for (const Walls::Interval& wall : walls->intervals) {
       out << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
-                               wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
-                               wall.min.empty() ? "-infinity" : wall.min, wall.max.empty() ? "infinity" : wall.max);
+                         wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
+                         wall.min.empty() ? "-infinity" : wall.min, wall.max.empty() ? "infinity" : wall.max);
     }
   }
   if (!scenario.request.method.name.empty()) {
@@ -177,20 +177,19 @@ void write_starts(std::ostream& out, const ProblemInfo& info) {
   }
   for (const StartInfo& s : info.starts) {
     out << fmt::format("    {:<18} {}  {}\n", s.kind.empty() ? "(without kind)" : s.kind, fmt::join(s.keys, ", "),
-                             s.meaning);
+                       s.meaning);
   }
   if (info.two_bodies) {
     out << "  bodies = [{ mass, position = [3], velocity = [3] }, { ... }]: two bodies in space, reduced\n";
   }
-  out << fmt::format("  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n",
-                           fmt::join(info.coordinates, ", "),
-                           info.default_q.empty() || info.default_p.empty()
-                               ? ""
-                               : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
-                                             fmt::join(info.default_p, ", ")));
+  out << fmt::format("  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n", fmt::join(info.coordinates, ", "),
+                     info.default_q.empty() || info.default_p.empty()
+                         ? ""
+                         : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
+                                       fmt::join(info.default_p, ", ")));
   out << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
-               "largest, \"-\" "
-               "the smallest root of H = E\n";
+         "largest, \"-\" "
+         "the smallest root of H = E\n";
 }
 
 /// What may stand between coordinates and walls.
@@ -204,7 +203,7 @@ void write_walls(std::ostream& out, const ProblemEntry& entry) {
   }
   if (!fixed) {
     out << fmt::format("  {} = [{{ {} = \"{}\", {}, {} }}]: walls, with\n", keys.walls.name, keys.coordinate.name,
-                             info.coordinates.front(), keys.min.name, keys.max.name);
+                       info.coordinates.front(), keys.min.name, keys.max.name);
   }
   for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) out << option_row(*key);
   for (const auto& [name, text] : info.observables) out << fmt::format("  observable: {} = {}\n", name, text);
@@ -222,8 +221,8 @@ void write_constraints(std::ostream& out, const ProblemEntry& entry) {
 void write_problem(std::ostream& out, const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   out << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
-                           variant_of(entry).empty() ? "" : " with " + variant_text(entry), info.formula,
-                           degrees_of_freedom(entry), info.reference);
+                     variant_of(entry).empty() ? "" : " with " + variant_text(entry), info.formula,
+                     degrees_of_freedom(entry), info.reference);
   if (entry.structure) out << "  found: " << structure_text(*entry.structure) << "\n";
   if (!info.parameters.empty() || !info.frame.name.empty()) out << "  keys of [problem]:\n";
   const bool gas = info.name == GasKeys::problem;
@@ -233,7 +232,7 @@ void write_problem(std::ostream& out, const ProblemEntry& entry) {
   write_starts(out, info);
   write_walls(out, entry);
   out << fmt::format("  momenta: {}\n",
-                           entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
+                     entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
   const bool typed = entry.structure && info.name == FormulaKeys::problem;
   if (typed) write_constraints(out, entry);
   for (const InvariantInfo& i : info.invariants) {
@@ -243,7 +242,7 @@ void write_problem(std::ostream& out, const ProblemEntry& entry) {
 
 void write_typed_central_force(std::ostream& out) {
   out << "central-force with potential = \"formula\", coordinates = \"cartesian\" or \"polar\": V as it is typed "
-               "(its language: hamflow show formula)\n";
+         "(its language: hamflow show formula)\n";
   for (const OptionInfo& option : central_formula_options()) out << option_row(option);
   // It starts like those of which no closed orbit is known.
   const auto alike = std::find_if(problems().begin(), problems().end(), [](const ProblemEntry& entry) {
@@ -256,7 +255,7 @@ void write_typed_central_force(std::ostream& out) {
 void write_method(std::ostream& out, const MethodSpec& spec) {
   const MethodInfo info = describe(spec);
   out << fmt::format("{}\n  {}\n  order {}, {}\n  source: {}\n", info.name, info.summary, info.order, flags(info),
-                           info.reference);
+                     info.reference);
   if (info.forces_per_step > 0) out << fmt::format("  force evaluations per step: {}\n", info.forces_per_step);
   const MethodEntry& entry = find_method(spec.name);
   out << "  needs " << entry.family->needs(entry.index) << "\n";
@@ -268,7 +267,7 @@ void write_method(std::ostream& out, const MethodSpec& spec) {
   if (!options.empty()) out << "  keys of [method]:\n";
   for (const OptionInfo& option : options) out << option_row(option);
   out << "  measured properties: hamflow verify " << (info.name == spec.name ? info.name : "'" + info.name + "'")
-            << "\n";
+      << "\n";
 }
 
 /// The first line of what a list says of a method.
@@ -339,10 +338,10 @@ Json problems_as_json() {
 void write_problems(std::ostream& out) {
   for (const ProblemEntry& entry : problems()) {
     out << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
-                             variant_of(entry).empty() ? "" : "  (" + variant_text(entry) + ")");
+                       variant_of(entry).empty() ? "" : "  (" + variant_text(entry) + ")");
   }
   out << fmt::format("{:<26} H = |p|^2/(2 mu) + V(r), V(r) as it is typed  (potential = \"formula\")\n",
-                           CentralKeys::problem);
+                     CentralKeys::problem);
 }
 
 }  // namespace

@@ -9,6 +9,10 @@
 
 namespace hamflow {
 
+namespace figures {
+struct Page;
+}
+
 /// What a comparison is asked for, as it was typed.
 struct ComparisonInput {
   std::string text;                  // of the scenario, whose own method is not run
@@ -41,7 +45,9 @@ struct ComparisonReport {
 /// @param progress told how far the comparison is; returns false to stop   @throws Error
 ComparisonReport compare_methods(const ComparisonRequest& request,
                                  const std::function<bool(const ComparisonProgress&)>& progress = {});
-/// The work-precision figure.   @param file .svg, .pdf or .png   @throws Error, FileError
+/// The work-precision figure (hamflow/figures/page.hpp).   @throws Error where no run has an error to draw
+figures::Page comparison_page(const Comparison& comparison);
+/// The same in a file.   @param file .svg, .pdf or .png   @throws Error, FileError
 void draw_comparison(const Comparison& comparison, const std::filesystem::path& file);
 
 /// Empty if the file's extension is that of a figure, else what is wrong with it.
