@@ -70,7 +70,7 @@ class Compare:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame of the rows, with a column for each kind of evaluations."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         return pandas.json_normalize(self.rows)
 

@@ -153,7 +153,7 @@ def _fields(panel: Mapping[str, Any], x: Any, y: Any, value: Any, ax: Any) -> No
     boxes = [Rectangle((a, b), c - a, d - b) for a, b, c, d in zip(x[::2], y[::2], x[1::2], y[1::2])]
     norm = (LogNorm if panel["z"]["logarithmic"] else Normalize)(*_limits(panel["z"]))
     drawn = ax.add_collection(PatchCollection(boxes, norm=norm, cmap="viridis"))
-    drawn.set_array(np.ma.masked_invalid(value))
+    drawn.set_array(value)
     ax.figure.colorbar(drawn, ax=ax, label=label(panel["z_label"]))
 
 

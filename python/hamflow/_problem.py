@@ -121,11 +121,13 @@ class Problem:
         -------
         float, or array of shape (n,)
         """
-        return self._core.energy(_state(q, "q"), _state(p, "p"))
+        found: float | Numbers = self._core.energy(_state(q, "q"), _state(p, "p"))
+        return found
 
     def gradient(self, q: npt.ArrayLike, p: npt.ArrayLike) -> tuple[Numbers, Numbers]:
         """(dH/dq, dH/dp), of the shape of q and p, (d,) or (n, d)."""
-        return self._core.gradient(_state(q, "q"), _state(p, "p"))
+        by_q, by_p = self._core.gradient(_state(q, "q"), _state(p, "p"))
+        return by_q, by_p
 
     def at(self, *, q: Sequence[Any] | Numbers | None = None, p: Sequence[Any] | Numbers | None = None,
            **initial: Any) -> dict[str, Any]:
@@ -175,4 +177,4 @@ def _state(x: npt.ArrayLike, name: str) -> Numbers:
 
 
 def _list(x: Any) -> list[Any]:
-    return x.tolist() if isinstance(x, np.ndarray) else list(x)
+    return list(x.tolist() if isinstance(x, np.ndarray) else x)

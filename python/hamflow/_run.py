@@ -152,7 +152,7 @@ class Run:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame of t, coordinates, momenta and energy."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         names = ["t", *self.scenario.coordinates, *self.scenario.momenta, "energy"]
         return pandas.DataFrame({name: self[name] for name in names})
@@ -236,19 +236,44 @@ class Run:
 def _progress(asked: bool | Progress | None, total: int) -> Callable[[int], None] | None:
     """What is told of steps taken. By default a line on a terminal for what takes longer than 2 s."""
     if asked is None:
-        asked = sys.stderr.isatty()
+        asked = sys.stderr is not None and sys.stderr.isatty() or "ipykernel" in sys.modules
     if asked is False:
         return None
     if callable(asked):
         told = asked
-        return lambda steps: told(min(steps, total), total)
+
+        def tell(steps: int) -> None:
+            told(min(steps, total), total)
+
+        return tell
     begin = time.monotonic()
+    bars: list[Callable[[int], None]] = []
 
     def line(steps: int) -> None:
-        if time.monotonic() - begin > 2 and sys.stderr is not None:
-            print(f"\r{100 * steps / max(total, 1):5.1f} %", end="", file=sys.stderr, flush=True)
+        if time.monotonic() - begin > 2:
+            if not bars:
+                bars.append(_bar(total))
+            bars[0](steps)
 
     return line
+
+
+def _bar(total: int) -> Callable[[int], None]:
+    """A bar of tqdm if it is there, else a line on stderr."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        def percent(steps: int) -> None:
+            if sys.stderr is not None:
+                print(f"\r{100 * steps / max(total, 1):5.1f} %", end="", file=sys.stderr, flush=True)
+
+        return percent
+    bar = tqdm(total=total)
+
+    def update(steps: int) -> None:
+        bar.update(steps - bar.n)
+
+    return update
 
 
 def progress_of_both(asked: bool | Progress | None) -> Progress | None:

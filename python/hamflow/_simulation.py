@@ -53,7 +53,7 @@ class Trajectory:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with a column for each name."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         return pandas.DataFrame({name: self[name] for name in self.columns})
 
@@ -194,12 +194,14 @@ class Simulation:
     @property
     def q(self) -> Numbers:
         """Coordinates, a copy of shape (d,)."""
-        return self._core.q
+        q: Numbers = self._core.q
+        return q
 
     @property
     def p(self) -> Numbers:
         """Canonical momenta, a copy of shape (d,)."""
-        return self._core.p
+        p: Numbers = self._core.p
+        return p
 
     @property
     def energy(self) -> float:

@@ -47,7 +47,7 @@ class Sweep:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with a row for each member."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         columns: dict[str, Any] = {}
         for name in self.columns:
