@@ -47,7 +47,7 @@ Workload workload(std::size_t count, const std::string& method, const std::strin
   request.dt = h_text;
   const auto typed = [=]<bool watch>(std::int64_t steps) {
     const hamflow::NBody<double> problem(
-        hamflow::Parameters<double>(hamflow::complete(hamflow::find_problem("n-body", {}).info, request.parameters)),
+        hamflow::Parameters<double>(hamflow::complete(hamflow::find_problem("n-body", {})->info, request.parameters)),
         bodies.q.size());
     auto q = hamflow::zeros<double, hamflow::dynamic>(bodies.q.size()), p = q;
     std::copy(bodies.q.begin(), bodies.q.end(), q.begin());

@@ -92,7 +92,7 @@ Racer ellipse_by_name(const std::string& name, int order, const std::string& met
 class OuterPlanets {
  public:
   OuterPlanets() {
-    const hamflow::ProblemInfo& info = hamflow::usual_problem("solar-system").info;
+    const hamflow::ProblemInfo& info = hamflow::usual_problem("solar-system")->info;
     request_.problem = info.name;
     request_.start.q = info.default_q;
     request_.start.p = info.default_p;

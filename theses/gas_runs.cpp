@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "scenarios.hpp"
 
@@ -36,21 +35,21 @@ std::string gas_scenario(const GasRun& run) {
 
 Return there_and_back(Study& study, const GasRun& run) {
   const ReversalReport report = study.reverse(name_of(run), gas_scenario(run));
-  const auto json = nlohmann::json::parse(report.json);
+  const ReversalSummary& found = report.summary;
   Return all;
   all.done = report.status == "done";
   all.message = report.message;
   all.start = report.reversal.start;
   all.turn = report.reversal.turn;
   all.end = report.reversal.end;
-  all.pair_evaluations = json.at("pair_evaluations").get<double>();
+  all.pair_evaluations = static_cast<double>(found.bodies.value().pair_evaluations.value());
   if (all.done) {
-    all.position = json.at("return_error").at("position");
-    all.momentum = json.at("return_error").at("momentum");
-    all.digits_lost = json.at("digits_lost");
-    all.bit_exact = json.at("bit_exact");
+    all.position = found.bodies->error.value().position;
+    all.momentum = found.bodies->error.value().momentum;
+    all.digits_lost = found.digits_lost.value();
+    all.bit_exact = found.bit_exact.value();
   } else {
-    all.failed_at = json.at("error").at("step");
+    all.failed_at = found.error.value().step;
   }
   return all;
 }
@@ -60,7 +59,7 @@ double digits_of(Study& study, const std::string& arithmetic) {
     const Trajectory run =
         study.run(fmt::format("one_and_{}_{}", halvings, arithmetic), scenario_of("one_and_less"),
                   {fmt::format("problem.initial.p=[\"2^(-{})\"]", halvings), "run.arithmetic=" + arithmetic});
-    return nlohmann::json::parse(run.report.json).at("final").at("q").at(0);
+    return run.report.summary.final.q.at(0);
   };
   int moves = 0, stays = 1000;
   const auto where_it_stays = moved_by(stays);

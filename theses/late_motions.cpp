@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "claim.hpp"
 
@@ -21,7 +20,7 @@ Exponents exponents_from(Study& study, const TubeSet& set, const TubeWatch& seen
     const Trajectory run = study.try_run(fmt::format("{}_{}", name, which),
                                          scenario_of_start(set, seen.start, length, seen.q, seen.p), sets);
     if (run.report.status != "done") return std::numeric_limits<double>::infinity();
-    return nlohmann::json::parse(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
+    return run.report.summary.lyapunov.value().exponents.at(0);
   };
   return {over(steps, "shorter"), over(4 * steps, "longer"), static_cast<double>(steps) * std::stod(set.run.dt)};
 }

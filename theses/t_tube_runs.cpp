@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
@@ -37,21 +36,20 @@ std::vector<TubeMember> members_of(Study& study, SweepRequest request) {
   }
   const SweepReport report = sweep.run([&](std::int64_t) { return study.goes_on(); });
   if (report.status == "interrupted") throw Stopped{};
-  const auto table = nlohmann::ordered_json::parse(sweep.json_with_rows(report));
-  std::vector<TubeMember> members;
-  for (const auto& row : table.at("rows")) {
-    TubeMember member;
-    member.done = row.at("status") == "done";
-    if (member.done) {
-      member.kinetic1 = row.at("kinetic1_initial");
-      member.kinetic2 = row.at("kinetic2_initial");
-      member.change1 = row.at("kinetic1_mean").get<double>() - member.kinetic1;
-      member.change2 = row.at("kinetic2_mean").get<double>() - member.kinetic2;
-      member.energy_error = row.at("energy").at("max_error").get<double>() / row.at("energy").at("scale").get<double>();
-      member.q = row.at("final").at("q").get<std::vector<double>>();
-      member.p = row.at("final").at("p").get<std::vector<double>>();
-    }
-    members.push_back(std::move(member));
+  const Table table = sweep.members();
+  std::vector<TubeMember> members(table.rows());
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    TubeMember& member = members[k];
+    const auto number = [&](const char* column) { return table[column].numbers()[k]; };
+    member.done = table["member/status"].text(k) == "done";
+    if (!member.done) continue;
+    member.kinetic1 = number("observables/kinetic1_initial");
+    member.kinetic2 = number("observables/kinetic2_initial");
+    member.change1 = number("observables/kinetic1_mean") - member.kinetic1;
+    member.change2 = number("observables/kinetic2_mean") - member.kinetic2;
+    member.energy_error = number("energy/max_error") / number("energy/scale");
+    member.q = table["final/q"].row(k);
+    member.p = table["final/p"].row(k);
   }
   return members;
 }

@@ -287,7 +287,8 @@ std::string scenario_of_start(const TubeSet& set, const TubeStart& start, std::i
 }
 
 std::unique_ptr<StepMap> free_tube_step(const TubeRun& run) {
-  const ProblemEntry& problem = usual_problem("t-tube");
+  const auto problem_entry = usual_problem("t-tube");
+  const ProblemEntry& problem = *problem_entry;
   const Texts given{{"masses", "[1, 100]"}, {"eps", fmt::format("{}", run.eps)}};
   return problem.step_map({.problem = "t-tube",
                            .variant = {{"walls", ""}},

@@ -26,7 +26,7 @@ bool asks_for_typed_field(const std::string& problem, const std::map<std::string
 }
 
 /// The entry of a problem with the choices given, the usual ones for those not given. @throws Error
-const ProblemEntry& chosen(const NewOptions& options) {
+std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
   std::vector<std::string> names;
   std::map<std::string, std::vector<std::string>> choices;
   for (const ProblemEntry& entry : problems()) {
@@ -69,11 +69,12 @@ const ProblemEntry& chosen(const NewOptions& options) {
     });
   };
   // A choice may be one of other choices alone: the dimension of a pendulum is one in Cartesian coordinates.
-  const ProblemEntry& usual = usual_problem(options.problem, variant);
-  const auto lacks = lacking(usual);
+  const std::shared_ptr<const ProblemEntry> usual = usual_problem(options.problem, variant);
+  const auto lacks = lacking(*usual);
   if (lacks == variant.end()) return usual;
   for (const ProblemEntry& entry : problems()) {
-    if (entry.info.name == options.problem && lacking(entry) == variant.end()) return entry;
+    if (entry.info.name == options.problem && lacking(entry) == variant.end())
+      return find_problem(options.problem, {entry.info.variant.begin(), entry.info.variant.end()});
   }
   throw Rejection(
       "--" + lacks->first,
@@ -98,8 +99,8 @@ ExampleInfo example_for(const ProblemEntry& problem) {
 
 int new_command(const NewOptions& options) {
   return guarded(false, [&] {
-    const ProblemEntry& problem = chosen(options);
-    std::cout << scenario_template(problem, example_for(problem));
+    const std::shared_ptr<const ProblemEntry> problem = chosen(options);
+    std::cout << scenario_template(*problem, example_for(*problem));
     return exit_done;
   });
 }

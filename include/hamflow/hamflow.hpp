@@ -272,6 +272,7 @@
 #include "hamflow/run/step_map.hpp"
 #include "hamflow/run/step_sums.hpp"
 #include "hamflow/run/steps_in_parts.hpp"
+#include "hamflow/run/sweep_shard.hpp"
 #include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/run/way_out.hpp"

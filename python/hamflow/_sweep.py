@@ -137,7 +137,7 @@ def _varied(key: str, values: Any) -> str:
 
 def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, threads: int | None = None,  # noqa: A002
           out: str | os.PathLike[str] | None = None, existing: str = "error",
-          progress: bool | Progress | None = None) -> Sweep:
+          progress: bool | Progress | None = None, client: Any = None) -> Sweep:
     """Carries out a scenario for many values of some of its keys, in lanes and on all cores.
 
     Parameters
@@ -156,14 +156,20 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
         What to do with a folder that exists. "resume" goes on with the members that are not finished.
     progress : bool or callable(done, total), optional
         Of steps of all members. Default: on a terminal, for what takes longer than 2 s.
+    client : dask.distributed.Client, optional
+        Runs the members on the workers of a Dask cluster, where `import hamflow` has to give the same version. The
+        bits do not depend on it, and `threads` is not used.
 
     Raises
     ------
     Rejection, FileError
-    KeyboardInterrupt
-        Its attribute `partial` is the sweep so far.
+    KeyboardInterrupt, Error
+        The attribute `partial` is the sweep so far: after Ctrl-C, and where workers of the cluster failed.
     """
     wanted = scenario_of(scenario)
+    if client is not None:
+        return _on_cluster(client, str(wanted), [_varied(key, values) for key, values in varied.items()], zip, out,
+                           existing, progress)
     found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
                         Path(out) if out is not None else "", existing, progress_of_both(progress))
     result = Sweep(found)
@@ -172,6 +178,42 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
         error.partial = result  # type: ignore[attr-defined]
         raise error
     return result
+
+
+def _shard(text: str, varied: list[str], zip: bool, index: int, count: int) -> bytes:  # noqa: A002
+    """What a worker does: the members index, index + count, ... of a sweep."""
+    return bytes(_core.sweep_shard(text, varied, zip, index, count))
+
+
+def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any,  # noqa: A002
+                existing: str, progress: bool | Progress | None) -> Sweep:
+    from distributed import as_completed  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+    gathered = _core.GatheredSweep(text, varied, zip, Path(out) if out is not None else "", existing)
+    members = gathered.members
+    # Several parts for each thread: a part of a worker that dies is run again on another one.
+    count = max(1, min(members, 4 * sum(client.nthreads().values())))
+    told = progress_of_both(progress)
+    futures = client.map(_shard, [text] * count, [varied] * count, [zip] * count, range(count),
+                         [count] * count, pure=False)
+    trouble: BaseException | None = None
+    try:
+        for done, future in enumerate(as_completed(futures), 1):
+            gathered.take(future.result())
+            if told is not None:
+                told(members * done // count, members)
+    except (KeyboardInterrupt, Exception) as error:  # what is finished is kept
+        trouble = error
+        client.cancel(futures)
+    result = Sweep(gathered.found(trouble is not None))
+    if trouble is None:
+        return result
+    if not isinstance(trouble, (KeyboardInterrupt, Error)):
+        cause = trouble
+        trouble = Error(f"the cluster failed: {type(cause).__name__}: {cause}")
+        trouble.__cause__ = cause
+    trouble.partial = result  # type: ignore[union-attr]
+    raise trouble
 
 
 def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, *, dt: float | str, steps: int,

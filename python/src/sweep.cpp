@@ -16,31 +16,24 @@ namespace hamflow::python {
 
 namespace {
 
-py::dict sweep_in_python(const std::string& text, const std::vector<std::string>& varied, bool zip, int threads,
-                         const std::filesystem::path& folder, const std::string& existing,
-                         const std::function<void(std::int64_t, std::int64_t)>& progress) {
-  const Existing what_to_do = existing_named(existing);
-  Interrupts interrupts;
-  SweepReport report;
+/// A sweep that has been checked, with its folder. To be called without the lock.
+std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const std::filesystem::path& folder,
+                                             Existing existing) {
+  auto sweep = std::make_unique<ScenarioSweep>(request);
+  if (!sweep->complaints().empty()) throw Rejection(sweep->complaints());
+  if (folder.empty()) return sweep;
+  auto wrong = sweep->keep_in(folder, existing);
+  if (!wrong.empty()) throw Rejection(std::move(wrong));
+  return sweep;
+}
+
+py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, bool interrupted) {
   std::shared_ptr<Table> members;
   std::shared_ptr<Table> sections;
   {
     const py::gil_scoped_release unlocked;
-    ScenarioSweep sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads});
-    if (!sweep.complaints().empty()) throw Rejection(sweep.complaints());
-    if (!folder.empty()) {
-      auto wrong = sweep.keep_in(folder, what_to_do);
-      if (!wrong.empty()) throw Rejection(std::move(wrong));
-    }
-    const std::int64_t total = sweep.total_steps();
-    Interrupts asked([&](std::int64_t steps) {
-      if (progress) progress(steps, total);
-    });
-    report = sweep.run([&](std::int64_t steps) { return asked.go_on(steps); });
     members = std::make_shared<Table>(sweep.members());
     sections = std::make_shared<Table>(sweep.sections());
-    const py::gil_scoped_acquire lock;
-    interrupts = asked;
   }
   py::dict found;
   found["members"] = members;
@@ -49,15 +42,85 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
   found["text"] = report.text;
   found["status"] = report.status;
   found["failures"] = report.failures;
-  found["interrupted"] = interrupts.was_interrupted();
+  found["interrupted"] = interrupted;
   return found;
 }
+
+py::dict sweep_in_python(const std::string& text, const std::vector<std::string>& varied, bool zip, int threads,
+                         const std::filesystem::path& folder, const std::string& existing,
+                         const std::function<void(std::int64_t, std::int64_t)>& progress) {
+  std::unique_ptr<ScenarioSweep> sweep;
+  SweepReport report;
+  bool interrupted = false;
+  {
+    const py::gil_scoped_release unlocked;
+    sweep = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads}, folder,
+                          existing);
+    const std::int64_t total = sweep->total_steps();
+    Interrupts asked([&](std::int64_t steps) {
+      if (progress) progress(steps, total);
+    });
+    report = sweep->run([&](std::int64_t steps) { return asked.go_on(steps); });
+    const py::gil_scoped_acquire lock;
+    interrupted = asked.was_interrupted();
+    asked = Interrupts();
+  }
+  return found_of(*sweep, report, interrupted);
+}
+
+py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& varied, bool zip, std::size_t index,
+                      std::size_t count) {
+  std::vector<std::byte> finished;
+  {
+    const py::gil_scoped_release unlocked;
+    const auto sweep = checked_sweep(
+        {.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = 1, .shard = {index, count}}, {},
+        "");
+    (void)sweep->run();
+    finished = sweep->finished_members();
+  }
+  return {reinterpret_cast<const char*>(finished.data()), finished.size()};
+}
+
+/// A sweep whose members are run elsewhere.
+class GatheredSweep {
+ public:
+  GatheredSweep(const std::string& text, const std::vector<std::string>& varied, bool zip,
+                const std::filesystem::path& folder, const std::string& existing) {
+    const py::gil_scoped_release unlocked;
+    sweep_ = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip}, folder, existing);
+  }
+  void take(std::string_view finished) {
+    const py::gil_scoped_release unlocked;
+    sweep_->take(std::as_bytes(std::span(finished)));
+  }
+  std::size_t members() const { return sweep_->members().rows(); }
+  py::dict found(bool interrupted) const {
+    SweepReport report;
+    {
+      const py::gil_scoped_release unlocked;
+      report = sweep_->report();
+    }
+    return found_of(*sweep_, report, interrupted);
+  }
+
+ private:
+  std::unique_ptr<ScenarioSweep> sweep_;
+};
 
 }  // namespace
 
 void bind_sweep(py::module_& m) {
   m.def("sweep", &sweep_in_python, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("threads"),
         py::arg("folder"), py::arg("existing"), py::arg("progress"));
+  m.def("sweep_shard", &sweep_shard, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("index"),
+        py::arg("count"));
+  py::class_<GatheredSweep>(m, "GatheredSweep")
+      .def(py::init<const std::string&, const std::vector<std::string>&, bool, const std::filesystem::path&,
+                    const std::string&>())
+      .def("take", &GatheredSweep::take, py::arg("finished"))
+      .def_property_readonly("members", &GatheredSweep::members)
+      .def("found", &GatheredSweep::found, py::arg("interrupted"));
 }
 
 }  // namespace hamflow::python

@@ -20,18 +20,24 @@
 
 namespace hamflow {
 
+namespace {
+/// An entry of the list, which lives as long as the program.
+std::shared_ptr<const ProblemEntry> listed(const ProblemEntry& entry) { return {std::shared_ptr<void>(), &entry}; }
+}  // namespace
+
 std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> all = [] {
     std::vector<ProblemEntry> entries = generated_problems();
     for (ProblemEntry& entry : constrained_problems()) entries.push_back(std::move(entry));
-    entries.push_back(gas_problem({}));
+    entries.push_back(*gas_problem({}));
     entries.push_back(formula_example());
     return entries;
   }();
   return all;
 }
 
-const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
+                                                 const std::map<std::string, std::string>& variant) {
   if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
@@ -45,7 +51,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
       const auto given = variant.find(choice.first);
       return given == variant.end() || given->second == choice.second;
     });
-    if (matches) return entry;
+    if (matches) return listed(entry);
   }
   if (same_name == nullptr) {
     throw Error("found the problem '" + name + "'; allowed " + joined(names) + suggestion(name, names));
@@ -54,11 +60,12 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
   throw Error("problem '" + name + "' has no variant with " + wanted + " (" + command_name("show " + name) + ")");
 }
 
-const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,
+                                                  const std::map<std::string, std::string>& variant) {
   if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
-  const ProblemEntry& any = find_problem(name, variant);
+  const std::shared_ptr<const ProblemEntry> any = find_problem(name, variant);
   const auto usual = [](const ProblemInfo& info, const std::string& key) {
     const auto listed = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
     return listed(info.default_choices) || listed(info.example_choices);
@@ -71,7 +78,7 @@ const ProblemEntry& usual_problem(const std::string& name, const std::map<std::s
     const ProblemInfo& info = entry.info;
     if (info.name == name && std::all_of(info.variant.begin(), info.variant.end(),
                                          [&](const auto& choice) { return matches(choice, info); })) {
-      return entry;
+      return listed(entry);
     }
   }
   return any;  // no entry is declared to be the usual one
@@ -206,7 +213,8 @@ static bool beats_loops(const Program& program) {
 std::unique_ptr<Simulation> make_simulation(const Request& request) { return make_simulation_of(Request(request)); }
 
 std::unique_ptr<Simulation> make_simulation_of(Request request) {
-  const ProblemEntry& problem = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request.problem, request.variant);
+  const ProblemEntry& problem = *problem_entry;
   check_arithmetic(request.arithmetic);
   const std::string why_not = refusal_with_advice(request.method, &problem, request.arithmetic);
   if (!why_not.empty())

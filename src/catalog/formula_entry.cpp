@@ -236,7 +236,7 @@ DigitCharts polar_digit_charts() {
 
 MethodSpec method_taken(const Request& request) {
   const Choices choices = without_walls(request.variant);
-  const std::size_t coordinates = find_problem(request.problem, choices).dimension;
+  const std::size_t coordinates = find_problem(request.problem, choices)->dimension;
   if (request.problem != FormulaKeys::problem || choices.empty() ||
       unknowns_of_step(request.method, coordinates + clock_coordinates) < fewest_unknowns_by_fixed_points) {
     return request.method;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numeric>
 
 #include "bulk_gas.hpp"
@@ -12,6 +11,7 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
+#include "made_entries.hpp"
 #include "mp_simulation.hpp"
 #include "outside_simulation.hpp"
 #include "recipes.hpp"
@@ -483,13 +483,9 @@ const std::vector<ProblemInfo>& pair_laws() {
   return laws;
 }
 
-const ProblemEntry& gas_problem(const std::map<std::string, std::string>& choices) {
-  static std::mutex mutex;
-  static std::map<Words, std::shared_ptr<const ProblemEntry>> known;
-  const std::scoped_lock lock(mutex);
-  std::shared_ptr<const ProblemEntry>& entry = known[choices];
-  if (!entry) entry = std::make_shared<const ProblemEntry>(entry_of(choices));
-  return *entry;
+std::shared_ptr<const ProblemEntry> gas_problem(const std::map<std::string, std::string>& choices) {
+  static MadeEntries<Words> made;
+  return made.find(choices, [&] { return entry_of(choices); });
 }
 
 }  // namespace hamflow

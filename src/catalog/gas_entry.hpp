@@ -8,7 +8,7 @@ namespace hamflow {
 
 /// The entry of choices, which lives as long as the program. What is not chosen is as in a scenario by default.
 /// @throws FormulaError when a typed phi is wrong
-const ProblemEntry& gas_problem(const std::map<std::string, std::string>& choices);
+std::shared_ptr<const ProblemEntry> gas_problem(const std::map<std::string, std::string>& choices);
 
 /// With which container, cut-off or both the gas of these choices would take a method that it refuses: 'one only with
 /// container = ...'; empty where with none.

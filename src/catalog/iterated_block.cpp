@@ -16,8 +16,8 @@ namespace {
 /// alone for the rest of a stretch of steps, and joins again.
 class IteratedBlock final : public EnsembleBlock {
  public:
-  IteratedBlock(const ProblemEntry& problem, Request request, LaneSet lanes)
-      : problem_(problem), request_(std::move(request)), set_(lanes) {
+  IteratedBlock(std::shared_ptr<const ProblemEntry> problem, Request request, LaneSet lanes)
+      : problem_(std::move(problem)), request_(std::move(request)), set_(lanes) {
     request_.record = false;  // members go in lanes
   }
 
@@ -31,7 +31,7 @@ class IteratedBlock final : public EnsembleBlock {
     for (const MemberStart& start : members) {
       Member member;
       member.simulation =
-          problem_.simulate_member(request_, parameters_of(shape, start.parameters), start.q, start.p, start.h);
+          problem_->simulate_member(request_, parameters_of(shape, start.parameters), start.q, start.p, start.h);
       member.iterated = dynamic_cast<IteratedMember*>(member.simulation.get());
       if (member.iterated == nullptr || !can_go(*member.simulation, *member.iterated)) return false;
       const std::size_t i = members_.size();
@@ -216,7 +216,7 @@ class IteratedBlock final : public EnsembleBlock {
     if (steps != 0) member.iterated->take(frame, steps, effort);
   }
 
-  const ProblemEntry& problem_;
+  std::shared_ptr<const ProblemEntry> problem_;
   Request request_;
   LaneSet set_;
   std::vector<Member> members_;
@@ -232,8 +232,9 @@ class IteratedBlock final : public EnsembleBlock {
 
 }  // namespace
 
-std::unique_ptr<EnsembleBlock> make_iterated_block(const ProblemEntry& problem, const Request& request, LaneSet lanes) {
-  if (!problem.simulate_member || !problem.accepts(request.method) || lanes == LaneSet::generic) return nullptr;
+std::unique_ptr<EnsembleBlock> make_iterated_block(const std::shared_ptr<const ProblemEntry>& problem,
+                                                   const Request& request, LaneSet lanes) {
+  if (!problem->simulate_member || !problem->accepts(request.method) || lanes == LaneSet::generic) return nullptr;
   return std::make_unique<IteratedBlock>(problem, request, lanes);
 }
 

@@ -8,6 +8,7 @@
 namespace hamflow {
 
 /// Null where no lanes of such a request are known. load() is false where they cannot hand their steps over.
-std::unique_ptr<EnsembleBlock> make_iterated_block(const ProblemEntry& problem, const Request& request, LaneSet lanes);
+std::unique_ptr<EnsembleBlock> make_iterated_block(const std::shared_ptr<const ProblemEntry>& problem,
+                                                   const Request& request, LaneSet lanes);
 
 }  // namespace hamflow

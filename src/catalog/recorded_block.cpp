@@ -14,8 +14,8 @@ namespace {
 
 class RecordedBlock final : public EnsembleBlock {
  public:
-  RecordedBlock(const ProblemEntry& problem, Request request, LaneSet lanes)
-      : problem_(problem), request_(std::move(request)), set_(lanes), loop_(lanes) {}
+  RecordedBlock(std::shared_ptr<const ProblemEntry> problem, Request request, LaneSet lanes)
+      : problem_(std::move(problem)), request_(std::move(request)), set_(lanes), loop_(lanes) {}
 
   std::size_t lanes() const override { return loop_.lanes(); }
 
@@ -26,7 +26,7 @@ class RecordedBlock final : public EnsembleBlock {
     for (const MemberStart& start : members) {
       Member member;
       member.simulation =
-          problem_.simulate_member(request_, parameters_of(shape, start.parameters), start.q, start.p, start.h);
+          problem_->simulate_member(request_, parameters_of(shape, start.parameters), start.q, start.p, start.h);
       member.recorded = dynamic_cast<RecordedMember*>(member.simulation.get());
       if (member.recorded == nullptr) return false;
       member.has_step_of_last = before != nullptr && before->parameters == start.parameters && before->h == start.h;
@@ -264,7 +264,7 @@ class RecordedBlock final : public EnsembleBlock {
     return steps;
   }
 
-  const ProblemEntry& problem_;
+  std::shared_ptr<const ProblemEntry> problem_;
   Request request_;
   LaneSet set_;
   FamilyLoop loop_;
@@ -284,8 +284,9 @@ class RecordedBlock final : public EnsembleBlock {
 
 }  // namespace
 
-std::unique_ptr<EnsembleBlock> make_recorded_block(const ProblemEntry& problem, const Request& request, LaneSet lanes) {
-  if (!problem.simulate_member || !problem.accepts(request.method)) return nullptr;
+std::unique_ptr<EnsembleBlock> make_recorded_block(const std::shared_ptr<const ProblemEntry>& problem,
+                                                   const Request& request, LaneSet lanes) {
+  if (!problem->simulate_member || !problem->accepts(request.method)) return nullptr;
   return std::make_unique<RecordedBlock>(problem, request, lanes);
 }
 

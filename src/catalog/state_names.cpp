@@ -11,7 +11,8 @@ namespace {
 /// none, has a parameter that tells.
 std::size_t space_of_bodies(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
   if (problem.info.name == GasKeys::problem) return number_value(parameters.at(GasKeys::dimension)) == 3 ? 3 : 2;
-  const ProblemEntry& bare = find_problem(problem.info.name, {});
+  const auto bare_entry = find_problem(problem.info.name, {});
+  const ProblemEntry& bare = *bare_entry;
   const std::vector<InvariantInfo>& invariants = bare.info.invariants;
   for (std::size_t i = 0; i < invariants.size(); ++i) {
     if (invariants[i].components == Components::space) return bare.invariant_sizes(parameters, size).at(i);

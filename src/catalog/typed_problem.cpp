@@ -1,11 +1,11 @@
 #include "typed_problem.hpp"
 
-#include <mutex>
 #include <stdexcept>
 #include <tuple>
 
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/problems/support/potential.hpp"
+#include "made_entries.hpp"
 #include "typed_potential.hpp"
 
 namespace hamflow {
@@ -139,15 +139,11 @@ bool is_typed(const std::string& name, const Choices& choices) {
          choices.contains(FormulaKeys::central_potential);
 }
 
-const ProblemEntry& typed_problem(const std::string& name, const Choices& choices) {
-  static std::mutex mutex;
-  static std::map<Choices, std::shared_ptr<const ProblemEntry>> known;
+std::shared_ptr<const ProblemEntry> typed_problem(const std::string& name, const Choices& choices) {
+  static MadeEntries<Choices> made;
   Choices key = choices;
   key["problem"] = name;
-  const std::scoped_lock lock(mutex);
-  std::shared_ptr<const ProblemEntry>& entry = known[key];
-  if (!entry) entry = std::make_shared<const ProblemEntry>(entry_of_choices(name, choices));
-  return *entry;
+  return made.find(key, [&] { return entry_of_choices(name, choices); });
 }
 
 ProblemEntry formula_example() {

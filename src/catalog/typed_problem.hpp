@@ -1,4 +1,4 @@
-// Problems that are typed, as entries of the catalogue: made when they are first asked for, kept by their texts.
+// Problems that are typed, as entries of the catalogue: made when they are asked for.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ namespace hamflow {
 
 /// Whether choices are the texts of a typed problem.
 bool is_typed(const std::string& name, const Choices& choices);
-/// Its entry, which lives as long as the program. @throws FormulaError when a text is wrong
-const ProblemEntry& typed_problem(const std::string& name, const Choices& choices);
+/// Its entry. @throws FormulaError when a text is wrong
+std::shared_ptr<const ProblemEntry> typed_problem(const std::string& name, const Choices& choices);
 
 /// The model of an entry. Of texts that the catalogue itself has it is derived when a function is first called, and not
 /// at every start of the command: what an entry has to know before is declared with them. Copies are one model.

@@ -4,9 +4,10 @@
 #include <cctype>
 #include <cmath>
 #include <memory>
-#include <mutex>
+#include <utility>
 
 #include "hamflow/run/state_names.hpp"
+#include "made_entries.hpp"
 #include "soft_energy.hpp"
 
 namespace hamflow {
@@ -118,17 +119,13 @@ ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
 }  // namespace
 
 std::vector<bool> kept_invariants(const Request& request, const Walls& walls) {
-  return kept_of(find_problem(request.problem, without_walls(request.variant)), walls);
+  return kept_of(*find_problem(request.problem, without_walls(request.variant)), walls);
 }
 
-const ProblemEntry& walled_problem(const std::string& name, const Choices& choices) {
-  static std::mutex mutex;
-  static std::map<std::pair<std::string, Choices>, std::shared_ptr<const ProblemEntry>> known;
-  const ProblemEntry& problem = find_problem(name, without_walls(choices));
-  const std::scoped_lock lock(mutex);
-  std::shared_ptr<const ProblemEntry>& entry = known[{name, choices}];
-  if (!entry) entry = std::make_shared<const ProblemEntry>(entry_behind(problem, *walls_among(choices)));
-  return *entry;
+std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name, const Choices& choices) {
+  static MadeEntries<std::pair<std::string, Choices>> made;
+  const std::shared_ptr<const ProblemEntry> problem = find_problem(name, without_walls(choices));
+  return made.find({name, choices}, [&] { return entry_behind(*problem, *walls_among(choices)); });
 }
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// Problems behind walls, as entries of the catalogue: made when they are first asked for, kept by their choices.
+// Problems behind walls, as entries of the catalogue: made when they are asked for.
 #pragma once
 
 #include "hamflow/run/catalog.hpp"
@@ -7,7 +7,8 @@
 namespace hamflow {
 
 /// The entry of a problem behind the walls that are among its choices.
-const ProblemEntry& walled_problem(const std::string& name, const std::map<std::string, std::string>& choices);
+std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name,
+                                                   const std::map<std::string, std::string>& choices);
 /// Which invariants of the problem without walls they leave.
 std::vector<bool> kept_invariants(const Request& request, const Walls& walls);
 

@@ -35,9 +35,12 @@ const ProblemEntry* with_coordinates(const std::vector<const ProblemEntry*>& cha
   return found == charts.end() ? nullptr : *found;
 }
 
+/// Of an entry that lives long enough, as those of problems() do.
+std::shared_ptr<const ProblemEntry> unowned(const ProblemEntry& entry) { return {std::shared_ptr<void>(), &entry}; }
+
 /// One problem that has both, with so many coordinates if there is one. @throws Error
-std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::string& from, const std::string& to,
-                                                                 std::size_t size) {
+std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntry>> charts_named(
+    const std::string& from, const std::string& to, std::size_t size) {
   check_coordinates(from);
   check_coordinates(to);
   std::pair<const ProblemEntry*, const ProblemEntry*> found{};
@@ -47,21 +50,21 @@ std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::stri
     if (first == nullptr || second == nullptr) continue;
     if (found.first == nullptr || (first->dimension == size && found.first->dimension != size)) found = {first, second};
   }
-  if (found.first != nullptr) return found;
+  if (found.first != nullptr) return {unowned(*found.first), unowned(*found.second)};
   throw Error("found no way from " + from + " to " + to + "; allowed: " + what_charts_there_are());
 }
 
 }  // namespace
 
-const ProblemEntry& without_own_walls(const ProblemEntry& problem) {
-  const std::map<std::string, std::string> choices(problem.info.variant.begin(), problem.info.variant.end());
-  if (problem.info.walls.empty() || !walls_among(choices)) return problem;
-  return find_problem(problem.info.name, without_walls(choices));
+std::shared_ptr<const ProblemEntry> without_own_walls(const std::shared_ptr<const ProblemEntry>& problem) {
+  const std::map<std::string, std::string> choices(problem->info.variant.begin(), problem->info.variant.end());
+  if (problem->info.walls.empty() || !walls_among(choices)) return problem;
+  return find_problem(problem->info.name, without_walls(choices));
 }
 
 std::string coordinates_of(const ProblemEntry& behind) {
-  const ProblemEntry& problem = without_own_walls(behind);
-  return choice_of(problem.info, problem.info.chart_key);
+  const auto inside = without_own_walls(unowned(behind));
+  return choice_of(inside->info, inside->info.chart_key);
 }
 
 std::string what_charts_there_are() {
@@ -87,9 +90,11 @@ void check_coordinates(const std::string& name) {
   throw Error("found coordinates '" + name + "'; allowed " + joined(all) + suggestion(name, all));
 }
 
-const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string& to) {
+std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const ProblemEntry>& given,
+                                                   const std::string& to) {
   check_coordinates(to);
-  const ProblemEntry& problem = without_own_walls(given);
+  const std::shared_ptr<const ProblemEntry> inside = without_own_walls(given);
+  const ProblemEntry& problem = *inside;
   if (walls_among({problem.info.variant.begin(), problem.info.variant.end()})) {
     throw Error("found " + problem.info.name +
                 " behind walls; allowed without: a wall on one coordinate is none on those "
@@ -127,15 +132,18 @@ const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string&
       const bool is_chart = choice.first == entry.info.chart_key || choice.first == problem.info.chart_key;
       return is_chart || other.empty() || other == choice.second;
     });
-    if (same) return entry;
+    if (same) return unowned(entry);
   }
   std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
   variant[problem.info.chart_key] = to;
   return find_problem(problem.info.name, variant);  // of a typed field, or none
 }
 
-StateConverter::StateConverter(const ProblemEntry& from, const ProblemEntry& to, const Texts& parameters)
-    : from_(&without_own_walls(from)), to_(&to), parameters_(complete(to.info, parameters)) {
+StateConverter::StateConverter(const std::shared_ptr<const ProblemEntry>& given,
+                               const std::shared_ptr<const ProblemEntry>& target, const Texts& parameters)
+    : from_(without_own_walls(given)), to_(target), parameters_(complete(target->info, parameters)) {
+  const ProblemEntry& from = *given;
+  const ProblemEntry& to = *target;
   if (!from.info.angles.empty()) return;
   for (std::size_t i = 0; i < to.info.coordinates.size(); ++i) {
     const auto& angles = to.info.angles;

@@ -342,7 +342,7 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
       typed.parameters = request.parameters;
       texts = typed;
     }
-    scenario_.problem = &find_problem(name, request.variant);
+    scenario_.problem = find_problem(name, request.variant);
     if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
     if (texts && name == FormulaKeys::problem) note_standing_still(*texts);

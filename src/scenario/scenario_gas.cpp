@@ -192,7 +192,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
     return;
   }
   try {
-    scenario_.problem = &find_problem(GasKeys::problem, request.variant);
+    scenario_.problem = find_problem(GasKeys::problem, request.variant);
   } catch (const Error& error) {
     table.complain(GasKeys::pair, error.what());
     return;
@@ -437,7 +437,7 @@ void ScenarioReader::read_box(TomlTable& table) {
     walls.intervals.push_back({names[i], i, "-" + half, half});
   }
   put_among(walls, scenario_.request.variant);
-  scenario_.problem = &find_problem(GasKeys::problem, scenario_.request.variant);
+  scenario_.problem = find_problem(GasKeys::problem, scenario_.request.variant);
 }
 
 namespace {
@@ -453,7 +453,7 @@ std::string refused_by_size(const Request& request, std::size_t coordinates) {
   const std::string& name = request.method.name;
   const auto other_method = [&](std::initializer_list<std::string_view> candidates) {
     return "another method" +
-           with_fitting_methods(candidates, &find_problem(request.problem, request.variant), request.arithmetic);
+           with_fitting_methods(candidates, find_problem(request.problem, request.variant).get(), request.arithmetic);
   };
   if (name == "itoh-abe" && coordinates > ItohAbe::most_coordinates) {
     const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;

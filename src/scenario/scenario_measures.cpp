@@ -65,7 +65,7 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
   }
   if (has_method() && describe(scenario_.request.method).carries_copy) {
     table.complain(key, table.found(key) + " with a method that carries a second copy of the state; allowed with " +
-                            or_fitting_method("", "another method", {"stv4", "cg", "rk4"}, scenario_.problem,
+                            or_fitting_method("", "another method", {"stv4", "cg", "rk4"}, scenario_.problem.get(),
                                               arithmetic.default_value) +
                             ": its steps are no map of (q, p) that could be differentiated");
   }

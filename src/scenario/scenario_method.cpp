@@ -45,16 +45,16 @@ void ScenarioReader::read_method(TomlTable& table) {
   }
   if (const auto refused = refused_option(spec)) {
     const bool of_symmetry = refused->name == step_control_option && refused->message.ends_with("symmetric method");
-    const std::string which =
-        of_symmetry ? with_fitting_methods({"verlet", "stv4", "cg"}, scenario_.problem, scenario_.request.arithmetic)
-                    : "";
+    const std::string which = of_symmetry ? with_fitting_methods({"verlet", "stv4", "cg"}, scenario_.problem.get(),
+                                                                 scenario_.request.arithmetic)
+                                          : "";
     table.complain(table.has(refused->name) ? refused->name : method_name_key().name, refused->message + which);
   }
   if (scenario_.problem != nullptr) {
     const std::string why_not = refusal(spec, *scenario_.problem);
     if (!why_not.empty() && !complain_of_soft_walls()) complain_of_method(table, why_not);
   }
-  table.finish(scenario_.problem, spec.name);
+  table.finish(scenario_.problem.get(), spec.name);
 }
 
 /// At the option that is told of, "monitor: found ...", where [method] has it; else at the name.

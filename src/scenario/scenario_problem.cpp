@@ -264,7 +264,7 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   }
   if (!complete_choice) return;
   try {
-    scenario_.problem = &find_problem(name, scenario_.request.variant);
+    scenario_.problem = find_problem(name, scenario_.request.variant);
   } catch (const Error& error) {
     table.complain("name", error.what());
     return;

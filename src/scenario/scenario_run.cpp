@@ -37,7 +37,7 @@ void ScenarioReader::read_run(TomlTable& table) {
   read_measures(table);
   read_kernel(table);
   read_lattice(table);
-  table.finish(scenario_.problem, scenario_.request.method.name);
+  table.finish(scenario_.problem.get(), scenario_.request.method.name);
 }
 
 void ScenarioReader::read_map(TomlTable& table) {
@@ -96,7 +96,7 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     scenario_.request.start.p = start_of_bodies_.p;
   }
   const std::string why_not =
-      has_method() ? refusal_with_advice(scenario_.request.method, scenario_.problem, *name) : "";
+      has_method() ? refusal_with_advice(scenario_.request.method, scenario_.problem.get(), *name) : "";
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
 }
 

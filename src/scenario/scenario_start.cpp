@@ -304,7 +304,7 @@ void ScenarioReader::check_start(TomlTable& table) {
     const double wanted = evaluate_number<double>(request.start.orbit.at("energy"));
     // An orbit is one of the problem without walls.
     const double found =
-        find_problem(request.problem, without_walls(request.variant)).energy(request.parameters, start.q, start.p);
+        find_problem(request.problem, without_walls(request.variant))->energy(request.parameters, start.q, start.p);
     double size = std::abs(wanted) + std::abs(found);
     for (const double p : start.p) size += p * p;
     if (!(std::abs(found - wanted) <= 1e-8 * size)) {
@@ -403,7 +403,7 @@ std::string largest_of(const Request& request, const Frame& at, double sum, cons
     FormulaTexts one = texts;
     one.constraints = {texts.constraints[k]};
     const double size =
-        find_problem(request.problem, formula_choices(one)).residuals(request.parameters, at.q, at.p).position;
+        find_problem(request.problem, formula_choices(one))->residuals(request.parameters, at.q, at.p).position;
     if (size <= most) continue;
     most = size;
     worst = k;

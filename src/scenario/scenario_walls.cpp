@@ -140,7 +140,7 @@ void ScenarioReader::read_walls(TomlTable& table) {
   }
   if (complaints_.size() != before) return;
   put_among(walls, scenario_.request.variant);
-  scenario_.problem = &find_problem(scenario_.request.problem, scenario_.request.variant);
+  scenario_.problem = find_problem(scenario_.request.problem, scenario_.request.variant);
 }
 
 namespace {
@@ -215,15 +215,17 @@ bool ScenarioReader::complain_of_soft_walls() {
   const Request& request = scenario_.request;
   const auto walls = walls_among(request.variant);
   if (!walls || walls->hard()) return false;
-  const ProblemEntry& inside = find_problem(request.problem, without_walls(request.variant));
+  const auto inside_entry = find_problem(request.problem, without_walls(request.variant));
+  const ProblemEntry& inside = *inside_entry;
   if (!refusal(request.method, inside).empty()) return false;
   std::vector<WallRule> hard{WallRule::event, WallRule::reject};
   if (find_method(request.method.name).family->not_on_lattice.empty()) hard.push_back(WallRule::mirror);
-  root_.table("problem").complain(wall_keys().wall_rule.name,
-                                  "found \"" + rule_of_walls(request) + "\" with " + request.method.name +
-                                      ", which takes no potential of a wall; allowed " +
-                                      or_fitting_method(rules_taken(request, *walls, hard), "another method",
-                                                        {"cg", "stv4", "rk4"}, scenario_.problem, request.arithmetic));
+  root_.table("problem").complain(
+      wall_keys().wall_rule.name,
+      "found \"" + rule_of_walls(request) + "\" with " + request.method.name +
+          ", which takes no potential of a wall; allowed " +
+          or_fitting_method(rules_taken(request, *walls, hard), "another method", {"cg", "stv4", "rk4"},
+                            scenario_.problem.get(), request.arithmetic));
   return true;
 }
 

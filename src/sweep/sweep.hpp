@@ -17,6 +17,7 @@
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/step_sums.hpp"
+#include "hamflow/run/sweep_shard.hpp"
 #include "hamflow/verify/lyapunov.hpp"
 #include "member_names.hpp"
 #include "member_reader.hpp"
@@ -100,6 +101,7 @@ struct MemberObservables {
 };
 
 struct SweepOptions {
+  SweepShard shard{};
   int threads = 0;  // 0: all cores
   LaneSet lanes = LaneSet::none;
   /// Of a member; called by several threads.
@@ -147,6 +149,8 @@ class Sweep {
   void restore(std::size_t member, MemberRow row);
   /// Steps of members that were restored.
   std::int64_t steps_before() const { return steps_before_; }
+  /// Whether a member is one of the shard's.
+  bool is_own(std::size_t member) const { return member % options_.shard.count == options_.shard.index; }
   /// Members that are still to be run.
   std::size_t members_left() const;
 

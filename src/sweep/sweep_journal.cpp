@@ -50,15 +50,17 @@ SweepPast read_journal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file.string());
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  std::span<const std::byte> left = std::as_bytes(std::span(text));
-  const auto damaged = [&](const std::string& how) {
-    return FileError(file.string() + " " + how + advice_to_begin_anew());
-  };
+  return journal_in(std::as_bytes(std::span(text)), file.string());
+}
+
+SweepPast journal_in(std::span<const std::byte> left, const std::string& name) {
+  const auto damaged = [&](const std::string& how) { return FileError(name + " " + how + advice_to_begin_anew()); };
   SweepPast past;
   std::uint64_t found[2] = {};
   if (left.size() < sizeof found) throw damaged("is damaged: it is too short");
   Reader(left.first(sizeof found))(found);
-  if (found[0] != magic) throw damaged("is none of hamflow on a machine like this, or damaged");
+  if (found[0] != magic)
+    throw damaged("was not written by hamflow, or on a machine with another order of bytes, or is damaged");
   if (found[1] != format) {
     throw damaged("has format " + std::to_string(found[1]) + ", this hamflow knows " + std::to_string(format));
   }
@@ -86,14 +88,18 @@ SweepPast read_journal(const std::filesystem::path& file) {
   return past;
 }
 
-SweepJournal::SweepJournal(const std::filesystem::path& file, const SweepPast& past) : file_(file) {
+std::vector<std::byte> journal_bytes(const SweepPast& past) {
   Writer all;
   all(magic, format);
   const auto add = [&all](const std::vector<std::byte>& part) { all.raw(part.data(), part.size()); };
   add(part_of(past.head));
   for (const auto& [member, finished] : past.members) add(part_of(member, finished));
+  return all.take();
+}
+
+SweepJournal::SweepJournal(const std::filesystem::path& file, const SweepPast& past) : file_(file) {
   WholeFile whole(file, next_name(file));
-  write_whole(whole, all.bytes());
+  write_whole(whole, journal_bytes(past));
   descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ < 0) throw FileError("cannot open " + file.string() + ": " + std::strerror(errno));
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct SweepPast {
 
 /// @throws FileError when it cannot be read, or its head is damaged or of another format
 SweepPast read_journal(const std::filesystem::path& file);
+/// @param name of the file, in messages   @throws FileError as read_journal does
+SweepPast journal_in(std::span<const std::byte> bytes, const std::string& name);
+/// The content of a journal.
+std::vector<std::byte> journal_bytes(const SweepPast& past);
 
 /// Appends records. A record is in the hands of the system once append() returns.
 class SweepJournal {

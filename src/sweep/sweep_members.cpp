@@ -58,6 +58,7 @@ void Sweep::read_members(const std::string& name) {
     MemberReader reader(varied_, raw_text_, name, sets_);
     for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
       for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
+        if (member != 0 && !is_own(member)) continue;  // member 0 tells what all have in common
         const Reading reading = reader.read(member);
         if (reading.scenario) {
           add(member, *reading.scenario);
@@ -206,6 +207,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     start_contents_ = start_contents_.value_or(0) ^ fnv1a(std::as_bytes(std::span(one)));
   }
   names_.add(member, names);
+  if (!is_own(member)) return;
   arithmetics_.insert(request.arithmetic);
   kernels_.insert(request.kernel);
   auto [at, is_new] = groups_.try_emplace(key);

@@ -16,7 +16,8 @@ constexpr std::uint64_t seed = 20100617;  // any number: fixed, so that a measur
 /// Bodies around the origin, at rest as a whole. Otherwise they leave it, and their coordinates round by more and more:
 /// the energy of any method then walks like t^1.5.
 State<double> in_barycentre(const Region& region, const State<double>& z) {
-  const ProblemEntry& entry = find_problem(region.problem, region.variant);
+  const auto found_entry = find_problem(region.problem, region.variant);
+  const ProblemEntry& entry = *found_entry;
   Request request;
   request.parameters = complete(entry.info, region.parameters);
   request.start.barycentric = true;
@@ -32,7 +33,8 @@ State<double> in_barycentre(const Region& region, const State<double>& z) {
 
 /// Where there are constraints, on them.
 static State<double> onto_constraints(const Region& region, const State<double>& z) {
-  const ProblemEntry& entry = find_problem(region.problem, region.variant);
+  const auto found_entry = find_problem(region.problem, region.variant);
+  const ProblemEntry& entry = *found_entry;
   if (!entry.onto_constraints) return z;
   const auto half = z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2);
   const Frame there =
@@ -50,7 +52,8 @@ State<double> random_state(const Region& region, std::uint64_t k) {
 }
 
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant) {
-  const ProblemEntry& entry = usual_problem(problem, variant);
+  const auto found_entry = usual_problem(problem, variant);
+  const ProblemEntry& entry = *found_entry;
   Region region{entry.info.region, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
   if (!entry.info.walls.empty()) region.variant[wall_keys().walls.name] = "";  // far from them
   region.of_bodies = static_cast<bool>(entry.total_mass);
@@ -72,7 +75,8 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
 }
 
 std::optional<Region> region_at_walls(const std::string& problem) {
-  const ProblemEntry& entry = usual_problem(problem);
+  const auto found_entry = usual_problem(problem);
+  const ProblemEntry& entry = *found_entry;
   if (entry.info.region_at_walls.centre.empty()) return std::nullopt;
   Region region{entry.info.region_at_walls, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
   Walls walls;
@@ -98,7 +102,8 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
         "; allowed step_control=fixed: what is measured are maps of (q, p), and with steps of varying length the "
         "density of steps is a part of the state");
   }
-  const ProblemEntry& entry = find_problem(region.problem, region.variant);
+  const auto found_entry = find_problem(region.problem, region.variant);
+  const ProblemEntry& entry = *found_entry;
   const Request request{.problem = region.problem,
                         .variant = region.variant,
                         .parameters = complete(entry.info, region.parameters),
@@ -110,7 +115,7 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
 }
 
 std::vector<Region> default_regions(const MethodSpec& method) {
-  const auto refused = [&](const Region& r) { return !find_problem(r.problem, r.variant).accepts(method); };
+  const auto refused = [&](const Region& r) { return !find_problem(r.problem, r.variant)->accepts(method); };
   std::vector<Region> usual{region_of("pendulum"), region_of("henon-heiles")};
   std::erase_if(usual, refused);
   if (!usual.empty()) return usual;

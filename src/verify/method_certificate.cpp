@@ -55,7 +55,8 @@ std::string nothing_shown(const Simulation& simulation, Outcome outcome, double 
 
 /// Invariants of which rounding is known.
 void measure_maps(const Region& region, const MethodSpec& method, MethodCertificate& found) {
-  const ProblemEntry& problem = find_problem(region.problem, region.variant);
+  const auto problem_entry = find_problem(region.problem, region.variant);
+  const ProblemEntry& problem = *problem_entry;
   if (!problem.accepts(method) || problem.info.invariants.empty()) return;
   const Request request = request_on(region, method, random_state(region, 0));
   const auto simulation = make_simulation(request);
@@ -105,7 +106,7 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
   for (const Region& region : regions) {
     const ReversalEvidence back =
         reversal_evidence(request_on(region, method, random_state(region, 0)),
-                          find_problem(region.problem, region.variant), return_steps, std::nullopt);
+                          *find_problem(region.problem, region.variant), return_steps, std::nullopt);
     found.reversals.push_back({region.problem, back.steps, back.relative.value_or(0.0), back.relative.has_value(),
                                std::string(name(back.proves)), back.reason});
   }

@@ -131,7 +131,7 @@ class ReferenceRun::Impl {
  public:
   Impl(const Request& request, const std::string& t_end, std::int64_t steps)
       : problem_(find_problem(request.problem, request.variant)) {
-    const ProblemEntry& problem = problem_;
+    const ProblemEntry& problem = *problem_;
     Request full = request;
     full.parameters = complete(problem.info, request.parameters);
     const bool beyond_double = digits_beyond_double(request.arithmetic) > 0;
@@ -226,7 +226,7 @@ class ReferenceRun::Impl {
     solution_.digits = state_digits(frame);
     second_->look(frame);
     const int digits = digits_of(arithmetic_);
-    solution_.sizes = sizes_along(problem_, seen_);
+    solution_.sizes = sizes_along(*problem_, seen_);
     const Magnitude difference =
         largest_difference(solution_.digits, state_digits(frame), solution_.sizes, digits + 10);
     // Not less than the tolerance of the coarser one: two errors can meet by chance.
@@ -238,7 +238,7 @@ class ReferenceRun::Impl {
         first_tolerance_, arithmetic_, readable(difference), extrapolation_name(second_tolerance_), second_tolerance_);
   }
 
-  const ProblemEntry& problem_;
+  std::shared_ptr<const ProblemEntry> problem_;
   StateSizes seen_;                    // along the motion
   std::unique_ptr<Simulation> first_;  // null: a closed form
   std::unique_ptr<Simulation> second_;

@@ -41,7 +41,7 @@ Region region_for(const std::string& problem, const std::vector<MethodSpec>& spe
   const auto accepted = [&](const ProblemEntry& entry) {
     return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
   };
-  if (!accepted(usual_problem(problem))) {
+  if (!accepted(*usual_problem(problem))) {
     for (const ProblemEntry& entry : problems()) {
       if (entry.info.name != problem || !accepted(entry)) continue;
       return region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});
@@ -75,7 +75,7 @@ class Verification::Impl {
     for (const MethodSpec& spec : specs) {
       jobs_.push_back({spec});
       // A second copy of the state meets walls elsewhere.
-      if (at_walls && !describe(spec).carries_copy && find_problem(request.problem, at_walls->variant).accepts(spec)) {
+      if (at_walls && !describe(spec).carries_copy && find_problem(request.problem, at_walls->variant)->accepts(spec)) {
         jobs_.push_back({spec, at_walls});
       }
     }

@@ -72,7 +72,8 @@ class RequestReader {
         auto refused = refused_option(method);
         if (!refused) refused = refused_option(method, scenario_.start_q.size());
         if (refused) why_not = "method." + refused->name + ": " + refused->message;
-        if (why_not.empty()) why_not = refusal_with_advice(method, scenario_.problem, scenario_.request.arithmetic);
+        if (why_not.empty())
+          why_not = refusal_with_advice(method, scenario_.problem.get(), scenario_.request.arithmetic);
         if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
         Request one = scenario_.request;
         one.method = method;

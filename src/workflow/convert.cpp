@@ -27,15 +27,15 @@ std::string row(const std::vector<double>& numbers) {
 
 /// Why the scenario's method cannot run in the new coordinates; empty if it can.
 std::string refused_method(const Scenario& scenario, const std::string& to) {
-  return refusal(scenario.request.method, in_coordinates(*scenario.problem, to));
+  return refusal(scenario.request.method, *in_coordinates(scenario.problem, to));
 }
 
 /// The start of a run in arithmetic beyond double, with all its digits.
 DigitState start_digits(const Scenario& scenario, const std::string& to) {
   Frame frame;
   make_simulation(scenario.request)->look(frame);
-  const ProblemEntry& problem = without_own_walls(*scenario.problem);
-  return in_chart_of(in_coordinates(problem, to), problem, scenario.request.parameters, scenario.request.arithmetic,
+  const std::shared_ptr<const ProblemEntry> problem = without_own_walls(scenario.problem);
+  return in_chart_of(*in_coordinates(problem, to), *problem, scenario.request.parameters, scenario.request.arithmetic,
                      {frame.digits.q, frame.digits.p});
 }
 
@@ -66,8 +66,8 @@ std::string state_json(const std::string& system, const CanonicalState& state) {
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
   std::vector<ScenarioEdit> edits;
   if (coordinates_of(*scenario.problem) == to) return edited_scenario(scenario.text, edits);
-  const ProblemInfo& before = without_own_walls(*scenario.problem).info;
-  const ProblemInfo& behind = in_coordinates(*scenario.problem, to).info;
+  const ProblemInfo before = without_own_walls(scenario.problem)->info;
+  const ProblemInfo behind = in_coordinates(scenario.problem, to)->info;
   const auto is_given = [&](const std::string& key) { return scenario.settings.contains("problem." + key); };
   for (const auto& [key, value] : behind.variant) {
     const bool usual =
@@ -109,7 +109,7 @@ std::string left_out_of_converted(const Scenario& scenario, const std::string& t
 }
 
 CanonicalState converted_start(const Scenario& scenario, const std::string& to) {
-  return StateConverter(*scenario.problem, in_coordinates(*scenario.problem, to),
+  return StateConverter(scenario.problem, in_coordinates(scenario.problem, to),
                         scenario.request.parameters)({scenario.start_q, scenario.start_p});
 }
 

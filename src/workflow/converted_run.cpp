@@ -30,7 +30,7 @@ constexpr double most_certain_turn = 2;  // radians from one sample to the next
 class SampleConversion {
  public:
   SampleConversion(const Scenario& scenario, const Table& given, const std::string& to)
-      : scenario_(scenario), given_(given), target_(&in_coordinates(*scenario.problem, to)) {}
+      : scenario_(scenario), given_(given), target_(in_coordinates(scenario.problem, to)) {}
 
   ConvertedStates all() const {
     ConvertedStates found;
@@ -51,7 +51,7 @@ class SampleConversion {
     Column p(of_p);
     Column q_digits = digits_of(of_q);
     Column p_digits = digits_of(of_p);
-    StateConverter convert(*scenario_.problem, *target_, scenario_.request.parameters);
+    StateConverter convert(scenario_.problem, target_, scenario_.request.parameters);
     for (std::size_t k = 0; k < given_.rows(); ++k) {
       try {
         CanonicalState state = convert({given_["q"].row(k), given_["p"].row(k)});
@@ -97,7 +97,7 @@ class SampleConversion {
   /// In the run's arithmetic, with the whole turns that the doubles have been given. The doubles become those of the
   /// digits.
   DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
-    DigitState state = in_chart_of(*target_, without_own_walls(*scenario_.problem), scenario_.request.parameters,
+    DigitState state = in_chart_of(*target_, *without_own_walls(scenario_.problem), scenario_.request.parameters,
                                    scenario_.request.arithmetic, given);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
       const auto& angles = target_->info.angles;
@@ -124,7 +124,7 @@ class SampleConversion {
 
   const Scenario& scenario_;
   const Table& given_;
-  const ProblemEntry* target_;  // the problem in the coordinates `to`
+  std::shared_ptr<const ProblemEntry> target_;  // the problem in the coordinates `to`
 };
 
 }  // namespace
@@ -147,7 +147,7 @@ class ConvertedRun::Impl {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
     check_states(scenario(), run_.description, file);
-    target_ = &in_coordinates(*scenario().problem, to);
+    target_ = in_coordinates(scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
     states_ = converted_states(scenario(), given_, to);
   }
@@ -195,7 +195,7 @@ class ConvertedRun::Impl {
   }
   std::string write_h5(const fs::path& target) const {
     const CanonicalState start = StateConverter(
-        *scenario().problem, *target_, scenario().request.parameters)({scenario().start_q, scenario().start_p});
+        scenario().problem, target_, scenario().request.parameters)({scenario().start_q, scenario().start_p});
     std::string note;
     std::string text =
         "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
@@ -248,7 +248,7 @@ class ConvertedRun::Impl {
   const Table& given_;  // its samples
   Reading reading_;
   ConvertedStates states_;
-  const ProblemEntry* target_ = nullptr;  // the problem in the coordinates `to`
+  std::shared_ptr<const ProblemEntry> target_{};  // the problem in the coordinates `to`
 };
 
 ConvertedRun::ConvertedRun(const fs::path& run, const std::string& to)

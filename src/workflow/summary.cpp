@@ -274,7 +274,8 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
     // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
-    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+    const auto problem_entry = find_problem(request.problem, request.variant);
+    const ProblemEntry& problem = *problem_entry;
     const auto monitor = request.method.options.find(monitor_option);
     const bool follows_distance = monitor != request.method.options.end() && monitor->second == distance_monitor_name;
     const std::string other = problem.has_distance && !follows_distance
@@ -289,7 +290,8 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
   if (outcome == Outcome::lattice_overflow) {
     text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
                         std::ilogb(request.momentum_unit) + 8);
-    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+    const auto problem_entry = find_problem(request.problem, request.variant);
+    const ProblemEntry& problem = *problem_entry;
     const auto has = [&](const char* name) {
       return std::any_of(problem.info.parameters.begin(), problem.info.parameters.end(),
                          [&](const ParameterInfo& each) { return each.name == name; });

@@ -25,16 +25,6 @@ Scenario scenario_in_common(const Sweep& sweep) {
   return scenario;
 }
 
-SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
-  const Checkpoint of_scenario = beginning_of(scenario_in_common(sweep), "");
-  return {.version = of_scenario.version,
-          .instruction_set = of_scenario.instruction_set,
-          .keys = of_scenario.keys,
-          .values = of_scenario.values,
-          .varied = request.varied,
-          .in_step = request.zip};
-}
-
 /// What differs from the sweep that began.
 std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
@@ -59,6 +49,16 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
 }
 
 }  // namespace
+
+SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
+  const Checkpoint of_scenario = beginning_of(scenario_in_common(sweep), "");
+  return {.version = of_scenario.version,
+          .instruction_set = of_scenario.instruction_set,
+          .keys = of_scenario.keys,
+          .values = of_scenario.values,
+          .varied = request.varied,
+          .in_step = request.zip};
+}
 
 SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path folder, Existing existing)
     : sweep_(sweep), folder_(std::move(folder), sweep_folder(), existing) {

@@ -15,6 +15,9 @@
 
 namespace hamflow {
 
+/// Which sweep it is.
+SweepHead head_of(const Sweep& sweep, const SweepRequest& request);
+
 class SweepFolder {
  public:
   /// Makes the folder; with Existing::resume reads what is there and restores the members that are finished, unless

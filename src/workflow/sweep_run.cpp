@@ -151,7 +151,7 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
 class ScenarioSweep::Impl {
  public:
   explicit Impl(const SweepRequest& asked) : request(asked) {
-    SweepOptions how{.threads = request.threads};
+    SweepOptions how{.shard = request.shard, .threads = request.threads};
     Varied varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
     how.observables_of = sweep_columns;
@@ -178,6 +178,8 @@ class ScenarioSweep::Impl {
   std::vector<std::string> notes;
   std::optional<Sweep> sweep;
   std::optional<SweepFolder> folder;
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  bool stopped = false;
 };
 
 ScenarioSweep::ScenarioSweep(const SweepRequest& request) : impl_(std::make_unique<Impl>(request)) {}
@@ -192,10 +194,9 @@ void ScenarioSweep::check_figure(const fs::path& file, const std::string& column
 }
 
 SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
-  Sweep& sweep = *impl_->sweep;
   std::optional<SweepFolder>& folder = impl_->folder;
-  std::atomic<bool> stopped{false};
-  const auto begin = std::chrono::steady_clock::now();
+  bool& stopped = impl_->stopped;
+  impl_->begin = std::chrono::steady_clock::now();
   if (folder) folder->begin();
   const auto look = [&](std::int64_t steps) {
     if (pulse && !pulse(steps)) stopped = true;
@@ -203,12 +204,51 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
     return !stopped;
   };
   const auto keep = [&](std::size_t member) { folder->keep(member); };
-  sweep.run(look, folder ? keep : std::function<void(std::size_t)>{});
-  const double seconds =
-      folder ? folder->seconds() : std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  impl_->sweep->run(look, folder ? keep : std::function<void(std::size_t)>{});
+  return report();
+}
+
+std::vector<std::byte> ScenarioSweep::finished_members() const {
+  const Sweep& sweep = *impl_->sweep;
+  SweepPast past{.head = head_of(sweep, impl_->request)};
+  for (std::size_t member = impl_->request.shard.index; member < sweep.members();
+       member += impl_->request.shard.count) {
+    const MemberRow& row = sweep.rows()[member];
+    if (row.is_finished()) past.members.emplace(member, FinishedMember{sweep.steps_of(member), 0, row});
+  }
+  return journal_bytes(past);
+}
+
+void ScenarioSweep::take(std::span<const std::byte> finished_members) {
+  Sweep& sweep = *impl_->sweep;
+  SweepPast past = journal_in(finished_members, "the result of a shard");
+  const SweepHead own = head_of(sweep, impl_->request);
+  if (past.head.version != own.version) {
+    throw Error("found members of hamflow " + past.head.version + "; allowed those of " + own.version +
+                ", as bits can depend on it");
+  }
+  if (past.head.varied != own.varied || past.head.in_step != own.in_step) {
+    throw Error("found members of another sweep; allowed those of the same scenario and the same varied keys");
+  }
+  for (auto& [member, finished] : past.members) {
+    if (member >= sweep.members() || finished.steps != sweep.steps_of(member)) {
+      throw Error("found member " + std::to_string(member) + " of another sweep");
+    }
+    if (sweep.rows()[member].is_finished()) continue;
+    sweep.restore(member, std::move(finished.row));
+    if (impl_->folder) impl_->folder->keep(member);
+  }
+}
+
+SweepReport ScenarioSweep::report() {
+  Sweep& sweep = *impl_->sweep;
+  std::optional<SweepFolder>& folder = impl_->folder;
+  const double seconds = folder
+                             ? folder->seconds()
+                             : std::chrono::duration<double>(std::chrono::steady_clock::now() - impl_->begin).count();
   SweepReport report;
   SweepSummary& summary = report.summary;
-  summary = sweep_summary(sweep, seconds, stopped, !folder);
+  summary = sweep_summary(sweep, seconds, impl_->stopped || sweep.members_left() > 0, !folder);
   add_passing(sweep, impl_->request, summary.warnings);
   report.status = summary.status;
   report.json = sweep_json(summary, false);

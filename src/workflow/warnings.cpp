@@ -100,21 +100,28 @@ void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::v
                  fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less", dt, whose, enough)});
 }
 
-/// The error of tao2 and tao4 grows as omega dt^order, since the springs turn the copies by 2 omega dt in a step.
-void add_fast_springs(const Scenario& scenario, std::vector<Warning>& all) {
-  constexpr double most = 0.25;
+/// What the springs of tao2 and tao4 turn the copies by in a step is twice omega dt, and the error grows as omega
+/// dt^order.
+constexpr double most_turn_of_springs = 0.25;
+
+/// omega dt of a method that carries a copy of the state.
+double turn_of_springs(const Scenario& scenario) {
   const MethodSpec& method = scenario.request.method;
-  if (!describe(method).carries_copy) return;
   const std::vector<OptionInfo>& options = find_method(method.name).family->options;
   const auto springs =
       std::find_if(options.begin(), options.end(), [](const OptionInfo& o) { return o.position == 1; });
   const auto given = method.options.find(springs->name);
-  const double omega = evaluate_number<double>(given == method.options.end() ? springs->default_value : given->second);
-  const double product = omega * std::abs(scenario.dt);
-  if (!(product > most)) return;
+  return evaluate_number<double>(given == method.options.end() ? springs->default_value : given->second) *
+         std::abs(scenario.dt);
+}
+
+void add_fast_springs(const Scenario& scenario, std::vector<Warning>& all) {
+  if (!describe(scenario.request.method).carries_copy) return;
+  const double turn = turn_of_springs(scenario);
+  if (!(turn > most_turn_of_springs)) return;
   all.push_back({"long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
                                           "the state are too fast for the step; try dt = {:.2g} or less",
-                                          product, scenario.dt * most / product)});
+                                          turn, scenario.dt * most_turn_of_springs / turn)});
 }
 
 /// Where the energy of (q, p) is off by more than a little the two copies of tao2 and tao4 may have parted: the method
@@ -158,11 +165,16 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
     sizes.include(state.q, state.p);
     for (const GroupDistance& group : group_distances(groups, sizes, state, frame(1, 3))) {
       if (!(group.relative.value > most)) continue;
+      const bool is_faster_possible = turn_of_springs(scenario) < most_turn_of_springs / 2;
+      const std::string advice = is_faster_possible
+                                     ? fmt::format("omega = {:.2g}", most_turn_of_springs / std::abs(scenario.dt))
+                                     : std::string("a smaller dt and a larger omega, with omega dt below 1/4");
       all.push_back(
           {"parted_copies",
            fmt::format("the two copies of the state have parted by {:.2g} of the size of {} at t = {:.4g}: what comes "
-                       "after is no motion of {}; try a larger omega, with omega dt below 1/4",
-                       group.relative.value, group.name, static_cast<double>(step) * scenario.dt, request.problem)});
+                       "after is no motion of {}; try {}",
+                       group.relative.value, group.name, static_cast<double>(step) * scenario.dt, request.problem,
+                       advice)});
       return;
     }
   }

@@ -3,8 +3,10 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 HAMFLOW = os.environ["HAMFLOW"]
@@ -24,6 +26,31 @@ quadrature = 5
 dt = 0.1
 steps = 400
 """
+
+
+def until(state, process, seconds=120):
+    """Waits until state() is true of a process that runs; a process that ends before, or the time, is a failure."""
+    end = time.monotonic() + seconds
+    while not state():
+        if process.poll() is not None:
+            raise AssertionError(f"the command ended with {process.returncode} before")
+        if time.monotonic() > end:
+            raise AssertionError(f"not so after {seconds} s")
+        time.sleep(0.01)
+
+
+def until_it_works(process, seconds=0.2):
+    """Waits until a command answers Ctrl-C in its own way and has worked for so many seconds of its processor: a signal
+    that comes earlier ends it before there is anything to keep."""
+
+    def has_worked():
+        handled = next(line for line in pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines()
+                       if line.startswith("SigCgt:"))
+        times = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+        used = (int(times[11]) + int(times[12])) / os.sysconf("SC_CLK_TCK")
+        return int(handled.split()[1], 16) >> (signal.SIGINT - 1) & 1 and used >= seconds
+
+    until(has_worked, process)
 
 
 class CommandCase(unittest.TestCase):

@@ -8,11 +8,10 @@ import pty
 import re
 import signal
 import subprocess
-import time
 import unittest
 import xml.etree.ElementTree
 
-from command import HAMFLOW
+from command import HAMFLOW, until_it_works
 from test_compare import CompareCase
 
 
@@ -129,11 +128,11 @@ class CompareFiles(CompareCase):
         parts = [float(word) for word in re.findall(r"\]\s+([0-9.]+) %", text)]
         self.assertEqual(parts, sorted(parts))
 
-    def stopped(self, by, *arguments, after=0.5):
-        """What a comparison prints that would take hours, stopped by a signal after so many seconds."""
+    def stopped(self, by, *arguments, after=0.3):
+        """What a comparison prints that would take hours, stopped by a signal after so many seconds of work."""
         process = subprocess.Popen([HAMFLOW, "compare", *arguments, "--methods", "stv4", "--set", "run.steps=100000000"],
                                    cwd=self.folder, stdout=subprocess.PIPE, text=True)
-        time.sleep(after)
+        until_it_works(process, after)
         process.send_signal(by)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
@@ -186,12 +185,12 @@ class CompareFiles(CompareCase):
         self.assertNotIn("uncertain by", out)
 
     def test_a_reference_of_many_bodies_stops_within_a_step(self):
-        """Of so many a sub-step takes minutes; it begins long before three seconds have passed."""
+        """Of so many a sub-step takes minutes; it begins long before three seconds of work."""
         self.write("gas.toml", '[problem]\nname = "gas"\nparticles_per_side = 71\ncutoff = 2\n'
                    'container = { kind = "none" }\n[method]\nname = "verlet"\n[run]\ndt = 1e-5\nsteps = 2\n')
         process = subprocess.Popen([HAMFLOW, "compare", "gas.toml", "--methods", "verlet", "--json"], cwd=self.folder,
                                    stdout=subprocess.PIPE, text=True)
-        time.sleep(3)
+        until_it_works(process, 3)
         process.send_signal(signal.SIGTERM)
         out, _ = process.communicate(timeout=100)
         self.assertEqual(process.returncode, 130)

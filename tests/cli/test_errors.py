@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from command import ELLIPSE, HAMFLOW, CommandCase
+from command import ELLIPSE, HAMFLOW, CommandCase, until_it_works
 
 
 class Errors(CommandCase):
@@ -224,7 +224,7 @@ record_every = true
         # As many steps as a double counts: set up at once, and stopped in the midst of it.
         done = subprocess.Popen([HAMFLOW, "run", "kepler.toml", "--json", "--out", "many", "--set", "run.steps=9007199254740000"],
                                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        time.sleep(1)
+        until_it_works(done)
         done.send_signal(signal.SIGINT)
         self.assertEqual(json.loads(done.communicate(timeout=60)[0])["status"], "interrupted")
 

@@ -3,10 +3,9 @@
 import json
 import signal
 import subprocess
-import time
 import unittest
 
-from command import HAMFLOW, CommandCase
+from command import HAMFLOW, CommandCase, until
 
 LONG = """
 [problem]
@@ -29,7 +28,7 @@ class Files(CommandCase):
                                    stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.stdout.close)
-        time.sleep(1.2)
+        until((self.folder / "long.run" / "checkpoint.bin").exists, process)
         return process
 
     def test_interrupt_saves_what_is_there(self):

@@ -6,10 +6,9 @@ import pathlib
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
-from command import HAMFLOW, CommandCase
+from command import HAMFLOW, CommandCase, until_it_works
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 from kill_and_resume import differences, kill_and_resume  # noqa: E402
@@ -46,7 +45,7 @@ class Resume(CommandCase):
         """A run stopped by Ctrl-C; its summary."""
         process = subprocess.Popen([HAMFLOW, "run", "s.toml", "--out", folder, "--json", *arguments], cwd=self.folder,
                                    stdout=subprocess.PIPE, text=True)
-        time.sleep(after)
+        until_it_works(process, after)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=20)
         return process.returncode, json.loads(out)
@@ -113,7 +112,7 @@ class Resume(CommandCase):
         # One sample would stand at the interruption only: it has to be gone in the end.
         self.scenario(run="dt = 0.01\nsteps = 20_000_000\nrecord_every = 10007")
         self.run_to("whole")
-        status, summary = self.interrupted("part", after=0.15)
+        status, summary = self.interrupted("part", after=0.05)
         self.assertEqual(status, 130)
         self.assertEqual(summary["status"], "interrupted")
         self.assertGreater(summary["steps"], 0)
@@ -150,7 +149,7 @@ class Resume(CommandCase):
     def test_measures_after_an_interruption(self):
         self.scenario(run="dt = 0.1\nsteps = 4_000_000\nrecord_every = 10_007" + MEASURES, problem=CHAOS)
         self.run_to("whole")
-        status, summary = self.interrupted("part", after=0.15)
+        status, summary = self.interrupted("part", after=0.05)
         self.assertEqual((status, summary["status"]), (130, "interrupted"))
         self.run_to("part", "--resume")
         self.expect_equal("whole", "part")

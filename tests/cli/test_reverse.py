@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from command import EXAMPLES, HAMFLOW, CommandCase
+from command import EXAMPLES, HAMFLOW, CommandCase, until, until_it_works
 
 
 class Reverse(CommandCase):
@@ -162,9 +162,7 @@ class Reverse(CommandCase):
         sets = ("--set", "method={name='stv4'}", "--set", "run.checkpoint_every=100", "--out", "r")
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", *sets, "--json", "--set", "run.steps=100_000_000"],
                                    cwd=self.folder, stdout=subprocess.PIPE, text=True)
-        while not (self.folder / "r" / "reversal.bin").exists():
-            time.sleep(0.05)
-        time.sleep(0.3)
+        until((self.folder / "r" / "reversal.bin").exists, process)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual((process.returncode, json.loads(out)["status"]), (130, "interrupted"))
@@ -221,7 +219,7 @@ class Reverse(CommandCase):
         self.assertIn("long_step", [w["kind"] for w in whole])
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", *sets, "--out", "r"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        time.sleep(0.15)
+        until_it_works(process, 0.05)
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
         on = self.hamflow("reverse", "kepler.toml", *sets, "--out", "r", "--resume")
@@ -230,7 +228,7 @@ class Reverse(CommandCase):
     def test_ctrl_c(self):
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", "--json", "--set", "method={name='stv4'}", "--set",
                                     "run.steps=1000000000"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
-        time.sleep(0.5)
+        until_it_works(process)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)

@@ -11,7 +11,7 @@ import time
 import unittest
 from decimal import Decimal
 
-from command import HAMFLOW, CommandCase
+from command import HAMFLOW, CommandCase, until_it_works
 
 
 class Shell(CommandCase):
@@ -297,7 +297,7 @@ steps = 1000
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         process.stdin.write("step 2000000000\nshow\n")
         process.stdin.flush()
-        time.sleep(1)
+        until_it_works(process)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=20)
         self.assertEqual((process.returncode, out), (130, ""), err)
@@ -337,7 +337,7 @@ steps = 1000
         until("allowed step")
         until("hamflow> ")
         say("step 2000000000")
-        time.sleep(1)
+        until_it_works(process)
         process.send_signal(signal.SIGINT)
         until("stopped by Ctrl-C at step")
         until("hamflow> ")

@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 
-from command import HAMFLOW, CommandCase
+from command import HAMFLOW, CommandCase, until_it_works
 
 KEPLER = """
 [problem]
@@ -443,7 +443,7 @@ steps = 333
         self.write("k.toml", KEPLER.replace("333", "2000000000") + '[output]\nformats = ["csv"]\n')
         process = subprocess.Popen([HAMFLOW, "sweep", "k.toml", "--vary", "problem.k=0.9:1.1:40", "--json"],
                                    cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(1.5)
+        until_it_works(process, 0.5)
         os.kill(process.pid, signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
@@ -463,7 +463,7 @@ steps = 333
                 [HAMFLOW, "sweep", "long.toml", "--vary", "problem.initial.q[1]=0:0.1:16", "--set", f"{key}={value}",
                  "--threads", "1", "--out", "none", "--json"],
                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            time.sleep(1)
+            until_it_works(process, 0.5)
             os.kill(process.pid, signal.SIGINT)
             out, _ = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 130)

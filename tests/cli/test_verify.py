@@ -3,23 +3,22 @@
 import json
 import signal
 import subprocess
-import time
 import unittest
 
-from command import HAMFLOW, CommandCase
+from command import HAMFLOW, CommandCase, until_it_works
 
 
 class Verify(CommandCase):
     def test_ctrl_c(self):
         for asked in (signal.SIGINT, signal.SIGTERM):
             process = subprocess.Popen([HAMFLOW, "verify", "--all"], cwd=self.folder, stdout=subprocess.DEVNULL)
-            time.sleep(0.5)
+            until_it_works(process)
             process.send_signal(asked)
             self.assertEqual(process.wait(timeout=10), 130)
 
     def test_ctrl_c_says_what_is_there(self):
         process = subprocess.Popen([HAMFLOW, "verify", "--all", "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
-        time.sleep(2)
+        until_it_works(process, 1)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=10)
         self.assertEqual(process.returncode, 130)
@@ -38,7 +37,7 @@ class Verify(CommandCase):
         with open("/dev/full", "w") as full:
             process = subprocess.Popen([HAMFLOW, "verify", "--all", "--json"], cwd=self.folder, stdout=full,
                                        stderr=subprocess.PIPE, text=True)
-        time.sleep(0.5)
+        until_it_works(process)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=10)
         self.assertEqual((process.returncode, said), (3, "error: cannot write to standard output\n"))

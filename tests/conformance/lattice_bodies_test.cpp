@@ -136,7 +136,8 @@ TEST(LatticeBodies, EveryBitIsBackAndTheTotalMomentumNeverChanges) {
 TEST(LatticeBodies, TheSolarSystemComesBackToo) {
   Request request;
   request.problem = "solar-system";
-  const ProblemEntry& entry = find_problem("solar-system", {});
+  const auto found_entry = find_problem("solar-system", {});
+  const ProblemEntry& entry = *found_entry;
   request.start.q = entry.info.default_q;
   request.start.p = entry.info.default_p;
   request.dt = "50";

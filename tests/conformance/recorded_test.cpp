@@ -121,7 +121,7 @@ void expect_typed_bits(const std::string& problem, const std::map<std::string, s
   request.kernel = is_fast<P> ? "fast" : "exact";
   const auto by_name = make_simulation(request);
   const std::size_t n = request.start.q.size();
-  const Parameters<double> parameters(complete(find_problem(problem, variant).info, request.parameters));
+  const Parameters<double> parameters(complete(find_problem(problem, variant)->info, request.parameters));
   const P made = [&] {
     if constexpr (P::dimension == dynamic) {
       return P(parameters, n);

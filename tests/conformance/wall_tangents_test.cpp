@@ -19,7 +19,8 @@ using Rows = std::vector<std::vector<double>>;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 std::unique_ptr<StepMap> map_of(const Request& request) {
-  const ProblemEntry& problem = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request.problem, request.variant);
+  const ProblemEntry& problem = *problem_entry;
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
   return problem.step_map(full, problem.dimension);

@@ -168,7 +168,8 @@ int compare_lanes(WallRule rule, LaneSet set, const std::string& method, const s
   std::vector<MemberStart> starts;
   for (const Tube& tube : all) starts.push_back(tube.start);
   EXPECT_TRUE(block->load({{"masses", 2}, {"eps", 1}}, std::span(starts).first(1)));
-  const ProblemEntry& problem = find_problem("t-tube", all[0].alone.variant);
+  const auto problem_entry = find_problem("t-tube", all[0].alone.variant);
+  const ProblemEntry& problem = *problem_entry;
   const std::vector<NamedExpression> kinetic{
       {"kinetic1", StateExpression("p1^2/2", problem, complete(problem.info, all[0].alone.parameters), 2)},
       {"kinetic2", StateExpression("p2^2/200", problem, complete(problem.info, all[0].alone.parameters), 2)}};

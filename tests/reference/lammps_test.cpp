@@ -16,7 +16,8 @@ class Lammps : public ::testing::TestWithParam<const char*> {
   const nlohmann::json data_ = reference_file("lammps.json")[GetParam()];
   const std::map<std::string, std::string> choices_{{"container", "periodic"},
                                                     {"cutoff_kind", data_["kind"].get<std::string>()}};
-  const ProblemEntry& gas_ = find_problem("gas", choices_);
+  const std::shared_ptr<const ProblemEntry> entry_ = find_problem("gas", choices_);
+  const ProblemEntry& gas_ = *entry_;
   const std::size_t space_ = data_["dimension"];
 
   Texts parameters() const {

@@ -12,7 +12,8 @@ namespace {
 class GasListing : public ::testing::Test {
  protected:
   const nlohmann::json data_ = reference_file("listings.json")["gas"]["corr_5x5_dt0.001"];
-  const ProblemEntry& gas_ = find_problem("gas", {});
+  const std::shared_ptr<const ProblemEntry> entry_ = find_problem("gas", {});
+  const ProblemEntry& gas_ = *entry_;
   const Texts parameters_ = complete(gas_.info, {{"scale", data_["inputs"]["SkalierFaktor"].dump()}});
 
   static std::vector<std::string> flat(const nlohmann::json& rows) {

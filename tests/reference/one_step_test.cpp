@@ -61,7 +61,8 @@ TEST_P(OneStep, MatchesTheDefinition) {
 TEST_P(OneStep, MatchesTheDefinitionInLongDouble) {
   // The same to the digits of long double: nothing on the way, no coefficient either, is a double.
   const auto file = reference_file("one_step.json")["one_step"][0];
-  const ProblemEntry& entry = find_problem("central-force", {{"potential", "kepler"}});
+  const auto found_entry = find_problem("central-force", {{"potential", "kepler"}});
+  const ProblemEntry& entry = *found_entry;
   const auto map = entry.step_map({.problem = "central-force",
                                    .variant = {},
                                    .parameters = complete(entry.info, {}),

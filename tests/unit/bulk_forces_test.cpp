@@ -423,7 +423,7 @@ TEST(BulkForces, LeaveNothingForStepsOfAGasToAllocate) {
   const std::map<std::string, std::string> choices{{"container", "periodic"}, {"cutoff_kind", "shifted"}};
   Request request{.problem = "gas",
                   .variant = choices,
-                  .parameters = complete(find_problem("gas", choices).info,
+                  .parameters = complete(find_problem("gas", choices)->info,
                                          {{"dimension", "3"}, {"size", "[10, 10, 10]"}, {"cutoff", "2"}}),
                   .method = {.name = "stv4"},
                   .dt = "0.0001"};

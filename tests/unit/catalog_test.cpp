@@ -215,7 +215,8 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
 }
 
 TEST(Catalog, RefusesTablesForQuadraticKineticEnergyElsewhere) {
-  const ProblemEntry& sextic = find_problem("sextic", {});  // T = p^3/3 - p/2
+  const auto sextic_entry = find_problem("sextic", {});
+  const ProblemEntry& sextic = *sextic_entry;  // T = p^3/3 - p/2
   for (const MethodEntry& entry : methods()) {
     const auto splitting = splitting_named(entry.name);
     const bool force_gradient = entry.family->name == "force-gradient";
@@ -227,7 +228,7 @@ TEST(Catalog, RefusesTablesForQuadraticKineticEnergyElsewhere) {
     EXPECT_EQ(sextic.step_map({.problem = "sextic", .variant = {}, .parameters = {}, .start = {}, .method = spec}, 1) ==
                   nullptr,
               needs_quadratic);
-    EXPECT_TRUE(find_problem("henon-heiles", {}).accepts(spec));
+    EXPECT_TRUE(find_problem("henon-heiles", {})->accepts(spec));
     if (!needs_quadratic) continue;
     const std::string message = refusal(spec, sextic);
     EXPECT_NE(message.find("T quadratic in p with constant mass matrix"), std::string::npos) << message;
@@ -253,12 +254,12 @@ TEST(Catalog, SaysWhatIsWrongWithAProblem) {
   EXPECT_TRUE(wrong.ends_with("; did you mean pendulum?")) << wrong;
   EXPECT_EQ(message("central-force", {{"potential", "coulomb"}}),
             "problem 'central-force' has no variant with potential = coulomb (hamflow show central-force)");
-  EXPECT_EQ(find_problem("central-force", {{"potential", "kepler"}}).info.variant.front().second, "kepler");
+  EXPECT_EQ(find_problem("central-force", {{"potential", "kepler"}})->info.variant.front().second, "kepler");
   EXPECT_EQ(test::message_of<Error>([] {
-              (void)complete(find_problem("pendulum", {}).info, {{"weight", "1"}});
+              (void)complete(find_problem("pendulum", {})->info, {{"weight", "1"}});
             }),
             "problem 'pendulum' has no parameter 'weight'");
-  const Texts all = complete(find_problem("pendulum", {}).info, {{"length", "2"}});
+  const Texts all = complete(find_problem("pendulum", {})->info, {{"length", "2"}});
   EXPECT_EQ(all.at("length"), "2");
   EXPECT_EQ(all.at("mass"), "1");
 }
@@ -300,7 +301,8 @@ TEST(Catalog, MomentaFromVelocitiesAreMassTimesVelocity) {
 }
 
 TEST(Catalog, AGeometricStartMeetsItsGeometry) {
-  const ProblemEntry& entry = find_problem("central-force", {{"potential", "kepler"}});
+  const auto found_entry = find_problem("central-force", {{"potential", "kepler"}});
+  const ProblemEntry& entry = *found_entry;
   Request request;
   request.problem = "central-force";
   request.variant = {{"potential", "kepler"}};
@@ -320,7 +322,8 @@ TEST(Catalog, AGeometricStartMeetsItsGeometry) {
 
 TEST(Catalog, NamesTheNumbersOfAState) {
   const auto names = [](const std::string& problem, const Texts& given, std::size_t size) {
-    const ProblemEntry& entry = usual_problem(problem);
+    const auto found_entry = usual_problem(problem);
+    const ProblemEntry& entry = *found_entry;
     const StateNames all = state_names(entry, complete(entry.info, given), size);
     return joined(all.q) + "; " + joined(all.p);
   };
@@ -343,7 +346,8 @@ TEST(Catalog, NamesTheNumbersOfAState) {
 }
 
 TEST(Catalog, KnowsWhereAProblemIsSingular) {
-  const ProblemEntry& kepler = find_problem("central-force", {{"potential", "kepler"}});
+  const auto kepler_entry = find_problem("central-force", {{"potential", "kepler"}});
+  const ProblemEntry& kepler = *kepler_entry;
   const Texts parameters = complete(kepler.info, {});
   EXPECT_FALSE(kepler.regular(parameters, {0, 0}, {1, 0}));
   EXPECT_TRUE(kepler.regular(parameters, {1, 0}, {0, 1}));

@@ -185,7 +185,8 @@ TEST(Declarations, ChartsAreOneMotion) {
 
 TEST(Declarations, PolarCoordinatesRefuseTheSameParameters) {
   for (const char* coordinates : {"cartesian", "polar"}) {
-    const ProblemEntry& power = find_problem("central-force", {{"potential", "power"}, {"coordinates", coordinates}});
+    const auto power_entry = find_problem("central-force", {{"potential", "power"}, {"coordinates", coordinates}});
+    const ProblemEntry& power = *power_entry;
     EXPECT_EQ(power.refused_parameters(complete(power.info, {{"a", "[1, 2]"}, {"n", "[2]"}})).first, "n");
     EXPECT_EQ(power.refused_parameters(complete(power.info, {{"a", "1"}, {"n", "-1"}})).first, "n");
     EXPECT_EQ(power.refused_parameters(complete(power.info, {{"a", "1"}, {"n", "2"}})).second, "");

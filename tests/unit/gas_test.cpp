@@ -16,7 +16,7 @@ std::vector<double> end_of(const std::string& method, const std::string& kind, i
   if (kind == "smooth") given["inner"] = "1.8";
   Request request{.problem = "gas",
                   .variant = choices,
-                  .parameters = complete(find_problem("gas", choices).info, given),
+                  .parameters = complete(find_problem("gas", choices)->info, given),
                   .method = {.name = method},
                   .dt = "1/4/" + std::to_string(steps),
                   .arithmetic = "compensated"};
@@ -59,7 +59,7 @@ Request far_apart(const std::string& edges) {
   const std::map<std::string, std::string> choices{{"container", "periodic"}};
   Request request{.problem = "gas",
                   .variant = choices,
-                  .parameters = complete(find_problem("gas", choices).info, {{"size", "[7.3, 7.3]"}}),
+                  .parameters = complete(find_problem("gas", choices)->info, {{"size", "[7.3, 7.3]"}}),
                   .method = {.name = "verlet"},
                   .dt = "0.01"};
   request.start.q = {"-2.1", "-2", "0.2", "-1.9", "2.3", "-2.2", "-2", "0.3", "0.1", "0.2", "2.2 - 7.3*" + edges,

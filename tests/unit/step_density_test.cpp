@@ -152,7 +152,8 @@ TEST(StepDensity, KeepsTheOrderOnKepler) {
         request.method = spec;
         const std::int64_t steps = each.steps << k;
         request.dt = shortest(3.0 / static_cast<double>(steps));
-        const ProblemEntry& problem = find_problem(request.problem, request.variant);
+        const auto problem_entry = find_problem(request.problem, request.variant);
+        const ProblemEntry& problem = *problem_entry;
         const auto run = make_simulation(request);
         ASSERT_EQ(run->advance(steps), Outcome::done);
         Frame end;
@@ -325,7 +326,8 @@ TEST(StepDensity, ComesBack) {
         request.arithmetic = arithmetic;
         if (!refusal(spec, arithmetic).empty()) continue;
         SCOPED_TRACE(describe(spec).name + " " + arithmetic);
-        const ProblemEntry& problem = find_problem(request.problem, request.variant);
+        const auto problem_entry = find_problem(request.problem, request.variant);
+        const ProblemEntry& problem = *problem_entry;
         const std::int64_t steps = digits_beyond_double(arithmetic) > 0 ? 60 : 300;
         const ReversalEvidence evidence = reversal_evidence(request, problem, steps, 300);
         if (describe(spec)

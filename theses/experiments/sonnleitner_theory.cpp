@@ -44,7 +44,8 @@ double determinant_of(std::vector<State<double>> rows) {
 
 /// Page 9: the content of M(t), of chosen pairs (q_i, p_i), is that of M(0), whatever the others do.
 void selected_volume(Study& study) {
-  const ProblemEntry& problem = usual_problem("t-tube");
+  const auto problem_entry = usual_problem("t-tube");
+  const ProblemEntry& problem = *problem_entry;
   const Texts given{{"masses", "[1, 1]"}, {"eps", "0.6"}};
   const auto map = problem.step_map({.problem = "t-tube",
                                      .variant = {{"walls", ""}},

@@ -160,10 +160,14 @@ void check_arithmetic(const std::string& arithmetic);
 ProblemEntry formula_example();
 /// @throws Error with the nearest name when there is no such name
 const MethodEntry& find_method(const std::string& name);
-const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant);
+/// The entry of a typed problem, or of one behind walls, is made here: it lives as long as somebody holds it.
+/// @throws Error with the nearest name when there is no such name
+std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
+                                                 const std::map<std::string, std::string>& variant);
 /// The entry with these choices; what they leave open is chosen as a scenario would by default, or, where a scenario
 /// has to choose, as `new` does (ProblemInfo::default_choices, example_choices). @throws Error as find_problem does
-const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant = {});
+std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,
+                                                  const std::map<std::string, std::string>& variant = {});
 /// The parameters of a problem with defaults for those not given.
 Texts complete(const ProblemInfo& info, const Texts& given);
 MethodInfo describe(const MethodSpec& spec);

@@ -46,6 +46,10 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
         watch_(watch) {}
 
   Outcome advance(std::int64_t steps) override {
+    if (resting_ > 0) {
+      resting_ -= steps;
+      return ordinary(steps);
+    }
     const Loop* const loop = loop_for(clock_.step_length(), steps, AtWalls::stop);
     if (loop == nullptr || steps < 1 || loop->step->stops) return ordinary(steps);
     if (!read_all(*loop->step)) {
@@ -54,7 +58,11 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       if (outcome != Outcome::done || --steps == 0) return outcome;
       if (!read_all(*loop->step)) return ordinary(steps);
     }
-    if (!loop->steps->run(values_, steps) || !are_finite()) return ordinary(steps);
+    if (!loop->steps->run(values_, steps) || !are_finite()) {
+      rest(steps);
+      return ordinary(steps);
+    }
+    rest_ = 0;
     if (watch_) {
       take_all(*loop->step, steps);
       return Outcome::done;
@@ -301,6 +309,17 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     }
   }
 
+  /// After a block in which a check failed. A motion that has taken another branch for good fails in every block, and
+  /// each costs its steps twice: the loop rests for as many steps as the block has, for twice as many after the next
+  /// failure, and so on. Where it rests for long, it is recorded anew, on the branch of that time.
+  void rest(std::int64_t steps) {
+    constexpr std::int64_t most = 1 << 20;
+    rest_ = std::min(most, std::max(2 * rest_, steps));
+    resting_ = rest_;
+    if (rest_ < 10 * worth_recording) return;
+    loops_ = {};
+    step_ = nullptr;
+  }
   /// Null where there is none, or too few steps have been asked for. Forwards and backwards are two loops, and so are
   /// the two ways of meeting walls.
   const Loop* loop_for(double h, std::int64_t steps, AtWalls at_walls) {
@@ -336,6 +355,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::vector<double> kept_values_;
   std::int64_t block_ = first_block;
   std::int64_t asked_ = 0;
+  std::int64_t rest_ = 0;     // how many steps the loop rested for when a check failed last; 0: none has since
+  std::int64_t resting_ = 0;  // how many of them are left
   bool behind_walls_ = false;
   std::shared_ptr<const RecordedStep> undone_;  // lives on where loops are dropped
   int failures_ = 0;                            // of recording

@@ -3,6 +3,7 @@
 // H stays.   [Gross1999, ch. 2 and 3]
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,9 +23,10 @@ std::string what_charts_there_are();
 /// @throws Error naming what is allowed when no problem has such coordinates
 void check_coordinates(const std::string& name);
 /// The same problem in the coordinates `to`. @throws Error when it has none such, naming which problems have some
-const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to);
+std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const ProblemEntry>& problem,
+                                                   const std::string& to);
 /// A problem without the walls that belong to it, which stand in each of its charts; any other as it is.
-const ProblemEntry& without_own_walls(const ProblemEntry& problem);
+std::shared_ptr<const ProblemEntry> without_own_walls(const std::shared_ptr<const ProblemEntry>& problem);
 /// The coordinates that an entry is in; empty where there is one chart only.
 std::string coordinates_of(const ProblemEntry& problem);
 
@@ -34,7 +36,8 @@ class StateConverter {
  public:
   /// Two entries of one problem that differ in their chart alone.
   /// @param parameters of the problem; missing ones take their defaults
-  StateConverter(const ProblemEntry& from, const ProblemEntry& to, const Texts& parameters = {});
+  StateConverter(const std::shared_ptr<const ProblemEntry>& from, const std::shared_ptr<const ProblemEntry>& to,
+                 const Texts& parameters = {});
   /// By name, for any problem that has both; one of so many coordinates before others. @throws Error when there is none
   StateConverter(const std::string& from, const std::string& to, std::size_t size = 0);
   /// @throws Error where a chart does not reach, for polar coordinates at r = 0, and for a state of another size
@@ -48,11 +51,11 @@ class StateConverter {
   double largest_turn() const { return largest_turn_; }
 
  private:
-  explicit StateConverter(const std::pair<const ProblemEntry*, const ProblemEntry*>& charts)
-      : StateConverter(*charts.first, *charts.second) {}
+  using Entry = std::shared_ptr<const ProblemEntry>;
+  explicit StateConverter(const std::pair<Entry, Entry>& charts) : StateConverter(charts.first, charts.second) {}
 
-  const ProblemEntry* from_;
-  const ProblemEntry* to_;
+  Entry from_;
+  Entry to_;
   Texts parameters_;
   std::vector<std::size_t> turning_;
   std::vector<double> last_;  // q of the state before

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,7 @@ struct UserEvent {
 struct Scenario {
   std::string file;  // as named by the user
   std::string text;  // as it is carried out: the file's, or with each --set merged in; a scenario by itself
-  const ProblemEntry* problem = nullptr;
+  std::shared_ptr<const ProblemEntry> problem{};
   Request request;
   double dt = 0;
   std::int64_t steps = 0;

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -36,7 +37,7 @@ std::string scenario_text(const Value::Table& tree);
 
 /// A problem without a start.
 struct ChosenProblem {
-  const ProblemEntry* entry = nullptr;  // lives as long as the program
+  std::shared_ptr<const ProblemEntry> entry{};
   std::map<std::string, std::string> variant{};
   Texts parameters{};  // complete
 };

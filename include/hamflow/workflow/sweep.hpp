@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "hamflow/core/table.hpp"
+#include "hamflow/run/sweep_shard.hpp"
 #include "hamflow/workflow/run.hpp"
 #include "hamflow/workflow/sweep_summary.hpp"
 
@@ -25,6 +27,7 @@ struct SweepRequest {
   bool zip = false;            // in place of every combination: the n-th value of each key together
   int threads = 0;             // 0: all cores; results do not depend on it
   std::string lanes = "auto";  // auto, none, generic, avx2, avx512; nor on this
+  SweepShard shard{};          // its members alone are read and run; nor on this
 };
 
 struct SweepReport {
@@ -72,6 +75,13 @@ class ScenarioSweep {
   /// @throws FileError   @param pulse called several times a second, on the thread of the caller, with the steps taken
   /// by all; returns false to stop. What it throws stops the sweep and reaches the caller.
   SweepReport run(const std::function<bool(std::int64_t steps)>& pulse = {});
+  /// The members of this shard that are finished, as members.bin holds them: another process takes them with take().
+  std::vector<std::byte> finished_members() const;
+  /// Takes members that another process has finished: they are not run again, and are kept in the folder, if there is
+  /// one. @throws Error when the bytes are damaged, or those of another sweep or another version of hamflow
+  void take(std::span<const std::byte> finished_members);
+  /// What there is so far, also where members are left; writes the folder, if there is one. @throws FileError
+  SweepReport report();
   /// A row for each member, also while some are not finished: varied/KEY, member/status, member/steps, final/t,
   /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/files.md, sweep.h5).
   Table members() const;
