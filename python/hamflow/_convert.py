@@ -54,7 +54,7 @@ def convert(given: Any, /, *, to: str, method: str | None = None, digits: bool =
     Examples
     --------
     >>> import hamflow as hf
-    >>> s = hf.Scenario(problem=hf.Problem("central-force").at(q=[1, 0], p=[0, 1]), method="stv4",
+    >>> s = hf.Scenario(problem=hf.Problem("central-force", potential="kepler").at(q=[1, 0], p=[0, 1]), method="stv4",
     ...                 run={"dt": 0.1, "steps": 20})
     >>> orbit = hf.convert(hf.run(s), to="polar")
     >>> orbit.coordinates, orbit["r"].shape

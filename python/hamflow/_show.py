@@ -47,8 +47,8 @@ def show(name: str | os.PathLike[str] | Scenario, /) -> Shown:
     Examples
     --------
     >>> import hamflow as hf
-    >>> hf.show("cg").text.splitlines()[0]
-    'cg'
+    >>> hf.show("stv4").text.splitlines()[0]
+    'stv4'
     """
     if isinstance(name, Scenario):
         return Shown("scenario", *_core.show_scenario(name._core))

@@ -32,12 +32,17 @@ class Trajectory:
         self.q: npt.NDArray[Any] = read("q")
         self.p: npt.NDArray[Any] = read("p")
         self.energy: npt.NDArray[Any] = read("energy")
-        self.step: npt.NDArray[np.int64] = table["step"]
+
+    @property
+    def step(self) -> npt.NDArray[np.int64]:
+        """Steps since the start, of shape (n,)."""
+        steps: npt.NDArray[np.int64] = self._table["step"]
+        return steps
 
     @property
     def columns(self) -> list[str]:
         """The names that [] takes."""
-        return ["t", *self.coordinates, *self.momenta, "energy", "step"]
+        return ["t", *self.coordinates, *self.momenta, "energy", *(["step"] if "step" in self._table else [])]
 
     def __getitem__(self, name: str) -> Any:
         if name in self.coordinates:

@@ -118,11 +118,13 @@ void bind_run(py::module_& m) {
       },
       py::arg("scenario"), py::arg("tables"), py::arg("kind"), py::arg("x"), py::arg("y"), py::arg("at"));
   m.def("convert_samples", [](const Scenario& scenario, const RunTables& tables, const std::string& to) {
-    ConvertedStates states;
+    ConvertedSamples states;
     {
       const py::gil_scoped_release unlocked;
-      states = converted_states(scenario, tables.samples, to);
-      for (const char* name : {"energy", "step", "t"}) states.table.add(tables.samples[name]);
+      states = converted_samples(scenario, tables.samples, to);
+      for (const char* name : {"energy", "step", "t"}) {
+        if (tables.samples.find(name) != nullptr) states.table.add(tables.samples[name]);
+      }
     }
     return py::make_tuple(std::make_shared<Table>(std::move(states.table)), states.names.q, states.names.p,
                           states.note);

@@ -38,8 +38,14 @@ void bind_scenario(py::module_& m) {
       });
   m.def("scenario_text", [](const py::dict& tree) { return scenario_text(table_of(tree)); });
   m.def("value_text", [](const py::handle& value) {
-    const std::string text = scenario_text(Value::Table{{"value", value_of(value, "value")}});
-    return text.substr(text.find('=') + 2, text.find_last_not_of('\n') - text.find('=') - 1);
+    // In a list a table is written within its line.
+    const bool is_table = py::isinstance<py::dict>(value);
+    Value written = value_of(value, "value");
+    if (is_table) written = Value::List{std::move(written)};
+    const std::string text = scenario_text(Value::Table{{"value", std::move(written)}});
+    const std::size_t first = text.find('=') + 2;
+    const std::size_t last = text.find_last_not_of('\n');
+    return is_table ? text.substr(first + 1, last - first - 1) : text.substr(first, last - first + 1);
   });
   m.def("read_file", [](const std::string& file) { return scenario_text(file); });
 }

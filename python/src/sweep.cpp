@@ -76,7 +76,7 @@ py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& v
     const py::gil_scoped_release unlocked;
     const auto sweep = checked_sweep(
         {.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = 1, .shard = {index, count}}, {},
-        "");
+        Existing::refuse);
     (void)sweep->run();
     finished = sweep->finished_members();
   }

@@ -14,7 +14,7 @@ HAMFLOW = os.environ.get("HAMFLOW", "hamflow")
 
 
 def kepler(**run):
-    return hf.Scenario(problem=hf.Problem("central-force").at(q=[1, 0], p=[0, 1.2]), method="stv4",
+    return hf.Scenario(problem=hf.Problem("central-force", potential="kepler").at(q=[1, 0], p=[0, 1.2]), method="stv4",
                        run={"dt": 0.05, "steps": 100} | run)
 
 

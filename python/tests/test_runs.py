@@ -28,10 +28,10 @@ def test_digits_are_those_of_the_command(tmp_path, arithmetic):
     sim = hf.Simulation(hf.Problem("pendulum"), method="stv4", q=["1/3"], p=[0], dt="1/50", arithmetic=arithmetic)
     for each in (hf.run(s, digits=True), hf.open(tmp_path / "c.run", digits=True),
                  hf.run(s, out=tmp_path / "p.run", existing="replace", digits=True), sim.sample(steps=40, digits=True)):
-        for name, values in (("t", each.t), ("q", each.q[:, 0]), ("p", each.p[:, 0]), ("energy", each.energy)):
+        for name, values in (("t", each.t), ("q1", each.q[:, 0]), ("p1", each.p[:, 0]), ("energy", each.energy)):
             assert [str(x) for x in values] == [str(Decimal(x)) for x in columns[name]], name
         assert each.q.dtype == object and each["q"][3] == each.q[3, 0] and isinstance(each.t[0], Decimal)
-    assert [str(x) for x in sim.sample(at=["4/5"], digits=True).q[0]] == [columns["q"][-1]]
+    assert [str(x) for x in sim.sample(at=["4/5"], digits=True).q[0]] == [columns["q1"][-1]]
 
 
 def test_digits_of_doubles_are_refused():
@@ -49,7 +49,7 @@ def a_run(problem):
     if problem == "gas":
         text = subprocess.run([HAMFLOW, "new", "gas"], check=True, capture_output=True, text=True).stdout
         s = hf.Scenario.from_text(text)
-        s.set("run", {"dt": 0.01, "steps": 20})
+        s.set("run.steps", 20)
         return hf.run(s, certificate=False)
     return hf.run({"problem": {"name": problem, "initial": {"q": [0, -0.15], "p": [0.54, 0.1]}}, "method": {"name": "stv4"},
                    "run": {"dt": 0.1, "steps": 2000, "section": {"coordinate": "q1"}}})
@@ -77,6 +77,20 @@ def test_figures_that_a_run_does_not_have():
         run.plot("orbit")
     with pytest.raises(hf.Error, match="allowed"):
         run.plot("nothing")
+
+
+def test_tables_are_keys_of_scenarios():
+    s = pendulum()
+    s.set("run", {"dt": 0.5, "steps": 3})
+    assert s.steps == 3 and s.dt == 0.5
+
+
+def test_an_opened_run_has_the_columns_of_one_in_memory(tmp_path):
+    kept = hf.run(pendulum(), out=tmp_path / "a.run")
+    once = hf.run(pendulum())
+    assert set(kept.columns) == set(once.columns)
+    for name in once.columns:
+        assert np.array_equal(kept[name], once[name]), name
 
 
 def test_a_run_in_a_notebook():

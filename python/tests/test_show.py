@@ -45,7 +45,7 @@ def test_hamiltonians_of_the_catalogue_are_typeset():
     ("k/2*(sqrt(q^2)-1)^2 + p^2/2", r"H = \frac{k}{2} \, \left(\sqrt{q^{2}} - 1\right)^{2} + \frac{p^{2}}{2}"),
     ("p^2/(2*omega) + 1e-3*q^-2", r"H = \frac{p^{2}}{2 \, \omega} + 1\cdot 10^{-3} \, q^{-2}")])
 def test_typed_hamiltonians_are_typeset(typed, tex):
-    problem = hf.Problem(typed, coordinates=["q"], parameters={"k": 2, "omega": 1} if "k" in typed or "omega" in typed else None)
+    problem = hf.Problem(typed, coordinates=["q"], parameters={name: 1 for name in ("k", "omega") if name in typed})
     assert problem._repr_html_() == f"${tex}$"
 
 

@@ -209,6 +209,9 @@ StoredRun read_run(const std::filesystem::path& path, const StoredRunOptions& op
   for (const std::string& name : names_of_group("invariants")) {
     add_other_column(file, "invariants/" + name, "invariants/" + name, count, run);
   }
+  for (const auto& [name, meaning] : count_columns) {
+    if (options.counts && has_object(file, name)) samples.add(integers_column(name, column(file, name).numbers()));
+  }
   if (options.digits) add_digits(file, width, samples);
   samples.add(t);
   cut_to_equal_length(samples);

@@ -32,8 +32,8 @@ class SampleConversion {
   SampleConversion(const Scenario& scenario, const Table& given, const std::string& to)
       : scenario_(scenario), given_(given), target_(in_coordinates(scenario.problem, to)) {}
 
-  ConvertedStates all() const {
-    ConvertedStates found;
+  ConvertedSamples all() const {
+    ConvertedSamples found;
     found.names = state_names(*target_, scenario_.request.parameters, target_->info.coordinates.size());
     const std::size_t size = target_->info.coordinates.size();
     const auto list = [&](const char* name, const std::vector<std::string>& parts, const char* meaning) {
@@ -129,7 +129,7 @@ class SampleConversion {
 
 }  // namespace
 
-ConvertedStates converted_states(const Scenario& scenario, const Table& samples, const std::string& to) {
+ConvertedSamples converted_samples(const Scenario& scenario, const Table& samples, const std::string& to) {
   return SampleConversion(scenario, samples, to).all();
 }
 
@@ -149,7 +149,7 @@ class ConvertedRun::Impl {
     check_states(scenario(), run_.description, file);
     target_ = in_coordinates(scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
-    states_ = converted_states(scenario(), given_, to);
+    states_ = converted_samples(scenario(), given_, to);
   }
 
   std::string csv() const {
@@ -247,7 +247,7 @@ class ConvertedRun::Impl {
   StoredRun run_;
   const Table& given_;  // its samples
   Reading reading_;
-  ConvertedStates states_;
+  ConvertedSamples states_;
   std::shared_ptr<const ProblemEntry> target_{};  // the problem in the coordinates `to`
 };
 

@@ -36,7 +36,7 @@ std::string left_out_of_converted(const Scenario& scenario, const std::string& t
 /// Whether a path names the folder of a run or an HDF5 file, whatever it is called.
 bool is_run(const std::filesystem::path& path);
 
-struct ConvertedStates {
+struct ConvertedSamples {
   Table table;  // q, p; of a run beyond double also digits/q, digits/p, digits/energy, digits/t
   StateNames names;
   /// Says where an angle, whose whole turns the samples do not show, changes so much from one sample to the next that
@@ -44,7 +44,7 @@ struct ConvertedStates {
   std::string note;
 };
 /// The samples of a run in the coordinates `to`.   @throws Error when a state cannot be converted
-ConvertedStates converted_states(const Scenario& scenario, const Table& samples, const std::string& to);
+ConvertedSamples converted_samples(const Scenario& scenario, const Table& samples, const std::string& to);
 
 /// Every sample of a run in the coordinates `to`.
 class ConvertedRun {
@@ -61,7 +61,7 @@ class ConvertedRun {
   /// nothing
   /// @throws FileError
   std::string write_h5(const std::filesystem::path& target) const;
-  /// See ConvertedStates.
+  /// See ConvertedSamples.
   const std::string& note() const;
   /// Keys of its scenario that the converted one has not.
   std::string left_out() const;
