@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "hamflow/core/option_names.hpp"
+#include "hamflow/core/text.hpp"
 
 namespace {
 
@@ -18,8 +19,16 @@ std::string set_in_python(const std::string& key, const std::string& value) {
   return "Scenario.set(\"" + key + "\", " + value + ")";
 }
 
-/// "list methods" is methods(), "show NAME" is show("NAME").
+/// "list methods" is methods(), "show NAME" is show("NAME"), "plot --kind KIND --y A,B" is Run.plot("KIND", y=["A",
+/// "B"]).
 std::string function_named(std::string_view words) {
+  const std::string_view drawn = "plot --kind ";
+  const std::string_view columns = " --y ";
+  if (const std::size_t end = words.find(columns); words.starts_with(drawn) && end != std::string_view::npos) {
+    const std::vector<std::string> names = hamflow::split_list(std::string(words.substr(end + columns.size())));
+    return "Run.plot(\"" + std::string(words.substr(drawn.size(), end - drawn.size())) + "\", y=[" +
+           hamflow::joined(names, [](const std::string& name) { return "\"" + name + "\""; }) + "])";
+  }
   const std::string_view shown = "show ";
   if (words.starts_with(shown)) return "hamflow.show(\"" + std::string(words.substr(shown.size())) + "\")";
   return words.find("problems") != std::string_view::npos ? "hamflow.problems()" : "hamflow.methods()";

@@ -11,7 +11,7 @@ struct OptionNames {
   std::string (*option)(std::string_view option);
   /// What sets one key of a scenario.
   std::string (*set)(const std::string& key, const std::string& value);
-  /// Of what lists or shows something: "list methods".
+  /// Of what lists, shows or draws something: "list methods", "plot --kind time --y q1,q2".
   std::string (*command)(std::string_view words);
 };
 
