@@ -53,7 +53,7 @@ def draw(page: Mapping[str, Any], ax: Any = None) -> Any:
             raise Error(f"ax: found {len(axes)} axes; allowed one, or {len(panels)}, one for each panel")
     for panel, each in zip(panels, axes):
         _panel(panel, each)
-    _legend(page, axes[0])
+    _legend(page, axes)
     return axes[0] if len(axes) == 1 else axes
 
 
@@ -78,12 +78,10 @@ def _axes_in(figure: Any, page: Mapping[str, Any]) -> Any:
     count = len(page["panels"])
     columns = min(page["columns"], count)
     rows = -(-count // columns)
-    figure.set_size_inches(6.0 if columns == 1 else 8.0, sum(_height(page["panels"][i * columns]) for i in range(rows)) / columns)
+    width = 6.0 if columns == 1 else 10.0
+    heights = [0.8 + width / columns * min(float(page["panels"][row * columns]["aspect"]), 1.2) for row in range(rows)]
+    figure.set_size_inches(width, sum(heights))
     return np.array([figure.add_subplot(rows, columns, i + 1) for i in range(count)], dtype=object)
-
-
-def _height(panel: Mapping[str, Any]) -> float:
-    return 1.0 + 5.2 * min(float(panel["aspect"]), 1.2)
 
 
 def _panel(panel: Mapping[str, Any], ax: Any) -> None:
@@ -157,12 +155,14 @@ def _fields(panel: Mapping[str, Any], x: Any, y: Any, value: Any, ax: Any) -> No
     ax.figure.colorbar(drawn, ax=ax, label=label(panel["z_label"]))
 
 
-def _legend(page: Mapping[str, Any], ax: Any) -> None:
-    """A legend that all panels share stands in the first."""
+def _legend(page: Mapping[str, Any], axes: Any) -> None:
+    """The legend that all panels share: behind the last of them where there is room, else in the first."""
     from matplotlib.lines import Line2D
 
     if not page["legend"]:
         return
     handles = [Line2D([], [], linestyle="none") if heading else Line2D([], [], **_style(mark))
                for heading, _, mark in page["legend"]]
-    ax.legend(handles, [label(name) for _, name, _ in page["legend"]], fontsize="x-small")
+    has_room = len(axes) > 1 and len(axes) % page["columns"] != 0
+    (axes[0].figure if has_room else axes[0]).legend(
+        handles, [label(name) for _, name, _ in page["legend"]], fontsize="small", loc="lower right" if has_room else "best")
