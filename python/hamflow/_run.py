@@ -323,6 +323,14 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
         Its attribute `partial` is the run up to the last good step.
     KeyboardInterrupt
         Likewise; with a folder, existing="resume" goes on.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 1000})
+    >>> run = hf.run(s)
+    >>> run.q.shape, run.status
+    ((1001, 1), 'done')
     """
     wanted = scenario_of(scenario)
     if not certificate:
@@ -387,5 +395,22 @@ class Reversal:
 
 
 def reverse(scenario: Any, /) -> Reversal:
-    """Tests time reversibility: integrates forward, reverses the momenta, integrates back."""
+    """Tests time reversibility: integrates forward, reverses the momenta, integrates back.
+
+    Parameters
+    ----------
+    scenario : Scenario, dict of tables, or name of a TOML file
+
+    Raises
+    ------
+    Rejection, KeyboardInterrupt
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4",
+    ...                 run={"dt": 0.1, "steps": 100, "arithmetic": "lattice"})
+    >>> hf.reverse(s).bit_exact
+    True
+    """
     return Reversal(_core.reverse(scenario_of(scenario)._core)[0])

@@ -165,6 +165,14 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     Rejection, FileError
     KeyboardInterrupt, Error
         The attribute `partial` is the sweep so far: after Ctrl-C, and where workers of the cluster failed.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 100})
+    >>> ens = hf.sweep(s, {"problem.initial.q[0]": [0.5, 1.0, 1.5]})
+    >>> ens["final/q"].shape, ens.status
+    ((3, 1), ['done', 'done', 'done'])
     """
     wanted = scenario_of(scenario)
     if client is not None:
@@ -187,7 +195,7 @@ def _shard(text: str, varied: list[str], zip: bool, index: int, count: int) -> b
 
 def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any,  # noqa: A002
                 existing: str, progress: bool | Progress | None) -> Sweep:
-    from distributed import as_completed  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    from distributed import as_completed
 
     gathered = _core.GatheredSweep(text, varied, zip, Path(out) if out is not None else "", existing)
     members = gathered.members
@@ -238,6 +246,13 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
     ------
     Error
         Where a member fails, naming the first.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> q, p = hf.propagate("pendulum", "stv4", [[0.5], [1.0]], [[0], [0]], dt=0.1, steps=100)
+    >>> q.shape
+    (2, 1)
     """
     from ._problem import Problem
 

@@ -137,6 +137,22 @@ void bind_run(py::module_& m) {
     if (!left_out.empty()) notes.push_back(left_out + " of the other coordinates: not in what was converted");
     return std::make_pair(converted.text, notes);
   });
+  m.def("convert_states", [](const std::string& from, const std::string& to, const std::vector<std::vector<double>>& q,
+                             const std::vector<std::vector<double>>& p) {
+    std::vector<std::vector<double>> new_q;
+    std::vector<std::vector<double>> new_p;
+    if (!q.empty()) {
+      StateConverter convert(from, to, q[0].size());
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        const CanonicalState given{q[k], p[k]};
+        CanonicalState state = convert(given);
+        convert.require_on_constraints(given);
+        new_q.push_back(std::move(state.q));
+        new_p.push_back(std::move(state.p));
+      }
+    }
+    return std::make_pair(new_q, new_p);
+  });
   m.def("check_coordinates", &check_coordinates);
   m.def("is_run", &is_run);
 }

@@ -56,3 +56,17 @@ def test_samples_too_far_apart_for_turns():
     far = kepler(steps=4000, record_every=500)
     with pytest.warns(UserWarning, match="phi changes by up to"):
         hf.convert(hf.run(far), to="polar")
+
+
+def test_states():
+    q, p = np.array([[1.0, 0.0], [0.0, 2.0]]), np.array([[0.0, 1.0], [1.0, 0.5]])
+    polar = hf.convert((q, p), start="cartesian", to="polar")
+    back = hf.convert(polar, start="polar", to="cartesian")
+    assert np.allclose(polar[1][:, 1], q[:, 0] * p[:, 1] - q[:, 1] * p[:, 0]) and np.allclose(back, (q, p))
+    assert np.array_equal(hf.convert((q[1], p[1]), start="cartesian", to="polar")[0], polar[0][1])
+    with pytest.raises(hf.Error, match="r = 0|r > 0"):
+        hf.convert(([0, 0], [1, 0]), start="cartesian", to="polar")
+    with pytest.raises(TypeError, match="start"):
+        hf.convert((q, p), to="polar")
+    with pytest.raises(hf.Error, match="one shape"):
+        hf.convert((q, p[0]), start="cartesian", to="polar")

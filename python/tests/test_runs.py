@@ -1,7 +1,6 @@
 """Runs: digits, figures, folders that exist."""
 
 import os
-import pathlib
 import subprocess
 from decimal import Decimal
 
@@ -137,6 +136,5 @@ def test_doctests():
     import doctest
     import importlib
 
-    for name in ("_compare", "_convert", "_show", "_verify"):
+    for name in ("_compare", "_convert", "_run", "_show", "_sweep", "_verify"):
         assert doctest.testmod(importlib.import_module("hamflow." + name)).failed == 0
-    assert pathlib.Path(hf.__file__).exists()
