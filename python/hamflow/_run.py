@@ -91,19 +91,19 @@ class Run:
         """The names that [] takes."""
         short = [name.split("/", 1)[1] for name in self._samples.columns
                  if name.startswith(("observables/", "invariants/"))]
-        return ["t", *self.scenario.coordinates, *self.scenario.momenta, *short, *self._samples.columns]
+        return list(dict.fromkeys(["t", *self.scenario.coordinates, *self.scenario.momenta, *short, *self._samples.columns]))
 
     def __getitem__(self, name: str) -> Any:
-        if name in ("t", "q", "p", "energy"):
-            return getattr(self, name)
         if name in self.scenario.coordinates:
             return self.q[:, self.scenario.coordinates.index(name)]
         if name in self.scenario.momenta:
             return self.p[:, self.scenario.momenta.index(name)]
+        if name in ("t", "q", "p", "energy"):
+            return getattr(self, name)
         for place in (name, "observables/" + name, "invariants/" + name):
             if place in self._samples:
                 return self._samples[place]
-        raise KeyError(f"no column {name!r}; there are {', '.join(dict.fromkeys(self.columns))}")
+        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
 
     def digits(self, name: str) -> npt.NDArray[Any]:
         """t, q, p or energy with all their digits, as an array of decimal.Decimal.

@@ -68,7 +68,7 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
     Rejection
         For unknown methods or problems.
     KeyboardInterrupt
-        Once the methods that are being measured are finished; its attribute `partial` has all that were.
+        Its attribute `partial` has the methods that were measured.
 
     Examples
     --------

@@ -12,6 +12,7 @@
 
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/option_names.hpp"
+#include "measuring_stopped.hpp"
 
 namespace hamflow {
 
@@ -84,7 +85,7 @@ class Verification::Impl {
     const std::size_t all = at_work_;
     for (std::size_t k = 0; k < all; ++k) helpers_.emplace_back([this] { work(); });
   }
-  ~Impl() { next_ = jobs_.size(); }
+  ~Impl() { stopped_ = true; }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -111,14 +112,17 @@ class Verification::Impl {
 
  private:
   void work() {
+    const std::function<bool()> goes_on = [this] { return !stopped_; };
+    const StopQuestion question(goes_on);
     try {
-      for (std::size_t i = next_++; i < jobs_.size(); i = next_++) {
+      for (std::size_t i = next_++; i < jobs_.size() && !stopped_; i = next_++) {
         const auto& [method, at_walls] = jobs_[i];
         PropertyRow row = at_walls ? measure_at_walls(method, *at_walls)
                                    : measure_method(method, given_.empty() ? default_regions(method) : given_);
         const std::lock_guard lock(mutex_);
         measured_[i] = std::move(row);
       }
+    } catch (const MeasuringStopped&) {  // what is measured stays as it is
     } catch (...) {
       next_ = jobs_.size();
       const std::lock_guard lock(mutex_);
@@ -133,6 +137,7 @@ class Verification::Impl {
   std::vector<Job> jobs_;
   std::vector<std::optional<PropertyRow>> measured_;
   std::atomic<std::size_t> next_{0};
+  std::atomic<bool> stopped_{false};
   std::size_t at_work_ = 0;
   std::exception_ptr failure_;
   std::mutex mutex_;

@@ -21,7 +21,7 @@ class Verification {
   /// Measuring begins at once, in threads of its own.
   /// @throws Rejection for unknown methods or an unknown problem   @throws Error when a method refuses the problem
   explicit Verification(const VerificationRequest& request);
-  /// Waits for the methods that are being measured; no other begins.
+  /// Gives up the methods that are being measured, and waits until they are left.
   ~Verification();
   Verification(const Verification&) = delete;
   Verification& operator=(const Verification&) = delete;
