@@ -29,6 +29,7 @@ std::string function_named(std::string_view words) {
     return "Run.plot(\"" + std::string(words.substr(drawn.size(), end - drawn.size())) + "\", y=[" +
            hamflow::joined(names, [](const std::string& name) { return "\"" + name + "\""; }) + "])";
   }
+  if (words.starts_with("sweep")) return "Sweep.plot";
   const std::string_view shown = "show ";
   if (words.starts_with(shown)) return "hamflow.show(\"" + std::string(words.substr(shown.size())) + "\")";
   return words.find("problems") != std::string_view::npos ? "hamflow.problems()" : "hamflow.methods()";

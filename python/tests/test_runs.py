@@ -113,6 +113,12 @@ def test_messages_name_arguments(tmp_path):
     assert caught.value.errors[0][0] == "varied" and "--" not in str(caught.value)
 
 
+def test_a_sweep_is_no_run(tmp_path):
+    hf.sweep(pendulum(), {"run.dt": [0.1, 0.2]}, out=tmp_path / "s")
+    with pytest.raises(hf.FileError, match="Sweep.plot draws it"):
+        hf.open(tmp_path / "s")
+
+
 def test_resume_goes_on(tmp_path):
     hf.run(pendulum(), out=tmp_path / "a.run")
     longer = hf.run(pendulum(steps=80), out=tmp_path / "a.run", existing="resume")

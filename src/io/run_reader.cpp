@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "hamflow/core/option_names.hpp"
 #include "hdf5_text.hpp"
 #include "run_file.hpp"
 
@@ -249,8 +250,9 @@ auto naming(const std::filesystem::path& path, const Read& read) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown)) {
     const bool of_sweep = std::filesystem::exists(path.parent_path() / "sweep.h5", unknown) && path.has_parent_path();
-    throw FileError(path.string() + " cannot be read: there is no such file" +
-                    (of_sweep ? "; this is the folder of a sweep: hamflow sweep --figure draws it" : ""));
+    throw FileError(
+        path.string() + " cannot be read: there is no such file" +
+        (of_sweep ? "; this is the folder of a sweep: " + command_name("sweep --figure") + " draws it" : ""));
   }
   try {
     return read(path);
