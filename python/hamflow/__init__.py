@@ -17,6 +17,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from . import _core
+from ._certify import LogCertificate, StepCertificate, certify, certify_step
 from ._errors import Error, FileError, Rejection, StepFailed
 from ._problem import Problem
 from ._run import Reversal, Run, States, open, reverse, run
@@ -27,9 +28,10 @@ from ._trace import acos, asin, atan, atan2, cos, cosh, exp, log, sin, sinh, sqr
 
 __version__: str = _core.version
 
-__all__ = ["Error", "FileError", "Problem", "Rejection", "Reversal", "Run", "Scenario", "Simulation", "States",
-           "StepFailed", "Sweep", "Trajectory", "acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "log",
-           "methods", "open", "problems", "propagate", "reverse", "run", "sin", "sinh", "sqrt", "sweep", "tan", "tanh"]
+__all__ = ["Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario", "Simulation",
+           "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "acos", "asin", "atan", "atan2", "certify",
+           "certify_step", "cos", "cosh", "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run",
+           "sin", "sinh", "sqrt", "sweep", "tan", "tanh"]
 
 
 class Infos(list):  # type: ignore[type-arg]

@@ -13,5 +13,6 @@ void bind_scenario(pybind11::module_& m);
 void bind_run(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweep(pybind11::module_& m);
+void bind_certify(pybind11::module_& m);
 
 }  // namespace hamflow::python
