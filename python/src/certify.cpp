@@ -22,7 +22,7 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 std::vector<double> numbers_of(const Numbers& array) { return {array.data(), array.data() + array.size()}; }
 
 py::array_t<double> array_with(const std::vector<double>& numbers) {
-  return {static_cast<py::ssize_t>(numbers.size()), numbers.data()};
+  return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
 std::string type_of(const py::handle& object) { return py::type::of(object).attr("__name__").cast<std::string>(); }
@@ -115,16 +115,16 @@ void bind_certify(py::module_& m) {
   m.def("certify_step", [](const py::function& step, const ChosenProblem& problem, const std::optional<int>& order,
                            const std::optional<bool>& symplectic, const std::optional<bool>& symmetric,
                            const std::vector<std::string>& preserves) {
-    return certified_step(step, {problem.entry, problem.variant, problem.parameters}, order, symplectic, symmetric,
-                          preserves);
+    return certified_step(step, StepProblem{problem.entry, problem.variant, problem.parameters}, order, symplectic,
+                          symmetric, preserves);
   });
   m.def("certify_step", [](const py::function& step, const Scenario& scenario, const std::optional<int>& order,
                            const std::optional<bool>& symplectic, const std::optional<bool>& symmetric,
                            const std::vector<std::string>& preserves) {
     const Texts parameters = complete(scenario.problem->info, scenario.request.parameters);
-    return certified_step(step,
-                          {scenario.problem, scenario.request.variant, parameters, scenario.start_q, scenario.start_p},
-                          order, symplectic, symmetric, preserves);
+    return certified_step(
+        step, StepProblem{scenario.problem, scenario.request.variant, parameters, scenario.start_q, scenario.start_p},
+        order, symplectic, symmetric, preserves);
   });
 }
 

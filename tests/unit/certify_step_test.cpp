@@ -12,8 +12,8 @@ namespace hamflow {
 namespace {
 
 StepProblem pendulum() {
-  const ProblemEntry& entry = usual_problem("pendulum");
-  return {&entry, {}, complete(entry.info, {})};
+  const auto entry = usual_problem("pendulum");
+  return {entry, {}, complete(entry->info, {})};
 }
 
 void verlet(std::vector<double>& q, std::vector<double>& p, double h) {

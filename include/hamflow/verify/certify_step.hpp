@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +20,7 @@ using ForeignStep = std::function<void(std::vector<double>& q, std::vector<doubl
 
 /// The problem that a step integrates.
 struct StepProblem {
-  const ProblemEntry* entry = nullptr;
+  std::shared_ptr<const ProblemEntry> entry{};
   std::map<std::string, std::string> variant{};
   Texts parameters{};       // complete
   std::vector<double> q{};  // a state of the motion; empty: one in general position is chosen
