@@ -181,7 +181,7 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
         "pendulum", H = p^2/2 - cos q. A Problem without a start is measured about a state that the catalogue declares
         for it, else with all q and p near 0.5; `problem.at(q=..., p=...)` chooses another one.
     order : int, optional
-        The order that is claimed; it agrees within 0.3.
+        The order that is claimed; it agrees with a measured one that rounds to it.
     symplectic, symmetric : bool, optional
         What is claimed. Without it the property is measured and not compared.
     preserves : str or sequence of str, optional
@@ -201,7 +201,7 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
     Notes
     -----
     Errors of single steps are measured against the flow in long double. The Jacobian comes from central differences of
-    order 6 with three difference lengths, whose disagreement is its error bound [HLW2006, Def. VI.2.1, Def. II.3.1].
+    order 6 with three difference lengths, whose disagreement is its error bound [HLW2006, Def. VI.2.1].
     A defect of the size of rounding is True, one of the size of the step's error is False, and what is between, as with
     equations that are solved to a coarse tolerance or steps in single precision, is None. Some 2000 steps are taken.
 

@@ -252,8 +252,8 @@ def mclachlan_rkn_4(gradient):
 
 
 def mclachlan_atela_3(gradient):
-    a = [0.2683300957817599, 0.9196615230173999, -0.1879916187991598]
-    return kicks_first(gradient, a, a[::-1])
+    a, b, c = 0.2683300957817599, 0.9196615230173999, -0.1879916187991598
+    return kicks_first(gradient, [a, c, b], [b, c, a])
 
 
 def implicit(matrix, weights, gradient, rounds=200):
@@ -532,7 +532,8 @@ def test_hidden_state_is_refused():
 
 @pytest.mark.parametrize("step, words", [
     (lambda q, p, h: None, "returned None"),
-    (lambda q, p, h: q, "returned ndarray"),
+    (lambda q, p, h: q, r"returned q of shape \(\)"),
+    (lambda q, p, h: 1.5, "returned float"),
     (lambda q, p, h: (q[:1], p), r"q of shape \(1,\)"),
     (lambda q, p, h: (q, np.array([p, p])), r"p of shape \(2, 2\)"),
     (lambda q, p, h: (q * math.nan, p), "returned nan"),

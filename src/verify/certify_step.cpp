@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/counter_random.hpp"
@@ -329,117 +330,132 @@ class StepExamination {
         "arguments alone");
   }
 
+  /// The error of a step, and which part of it is no smooth function of h.
+  struct OrderPoint {
+    double h = 0;
+    double error = 0;
+    double noise = 0;
+  };
+  /// Without value where a step fails.
+  std::optional<OrderPoint> order_point(double h) {
+    constexpr double nearby = 0x1p-10;  // of h
+    double squares = 0;
+    double second_differences = 0;
+    for (const auto& z : around_.states) {
+      const auto here = error_of(z, h);
+      const auto below = here ? error_of(z, h * (1 - nearby)) : std::nullopt;
+      const auto above = below ? error_of(z, h * (1 + nearby)) : std::nullopt;
+      if (!above) return std::nullopt;
+      squares += std::pow(size_of(*here), 2);
+      for (std::size_t i = 0; i < size(); ++i) {
+        second_differences += std::pow((*below)[i] - 2 * (*here)[i] + (*above)[i], 2) / 6;  // 1 + 4 + 1
+      }
+    }
+    const double count = static_cast<double>(around_.states.size());
+    return OrderPoint{h, std::sqrt(squares / count), squares > 0 ? std::sqrt(second_differences / squares) : 1};
+  }
+
   void measure_order() {
-    constexpr int most_points = 64;
-    constexpr double nearby = 0x1p-10;        // of h
-    constexpr double smooth = 0.02;           // a point is noise where its second difference is more of it
-    constexpr double finest_error = 0x1p-40;  // published coefficients have 12 digits and more
-    std::vector<double> log_h;
-    std::vector<double> log_error;
-    std::vector<double> steps;
+    constexpr int most_lengths = 128;
+    constexpr std::size_t enough = 24;
+    constexpr double smooth = 0.02;  // with more noise an error is that of rounding, or of a solver
+    constexpr int gone = 8;          // so many noisy errors in turn, a factor of 4 in h
+    std::vector<OrderPoint> points;
     double largest_error = 0;
     int noisy = 0;
-    for (int k = 0; k < most_points && noisy < 4; ++k) {
-      const double h = 20 * short_step_ * std::exp2(-0.5 * k);
-      double squares = 0;
-      double noise = 0;
-      bool failed = false;
-      for (const auto& z : around_.states) {
-        const auto here = error_of(z, h);
-        const auto below = here ? error_of(z, h * (1 - nearby)) : std::nullopt;
-        const auto above = below ? error_of(z, h * (1 + nearby)) : std::nullopt;
-        if (!above) {
-          failed = true;
-          break;
-        }
-        State<double> second(size());
-        for (std::size_t i = 0; i < size(); ++i) second[i] = (*below)[i] - 2 * (*here)[i] + (*above)[i];
-        squares += std::pow(size_of(*here), 2);
-        noise += std::pow(size_of(second), 2) / 6;
-      }
-      if (failed) continue;
-      const double count = static_cast<double>(around_.states.size());
-      const double error = std::sqrt(squares / count);
-      if (!(error < most_error)) continue;
-      largest_error = std::max(largest_error, error);
-      if (error < finest_error) break;
-      if (std::sqrt(noise / count) > smooth * error) {
-        ++noisy;
-        continue;
-      }
-      noisy = 0;
-      steps.push_back(h);
-      log_h.push_back(std::log(h));
-      log_error.push_back(std::log(error));
+    for (int k = 0; k < most_lengths && noisy < gone; ++k) {
+      const auto point = order_point(20 * short_step_ * std::exp2(-0.25 * k));
+      if (!point || !(point->error < most_error)) continue;
+      largest_error = std::max(largest_error, point->error);
+      noisy = point->noise > smooth ? noisy + 1 : 0;
+      if (noisy == 0) points.push_back(*point);
+      if (point->error < nothing_but_rounding && points.size() >= enough) break;
     }
-    fit_order(steps, log_h, log_error, largest_error);
+    fit_order(points, largest_error);
   }
 
-  /// log E = a + s log h + b h by least squares over a window; the slope, and the root of the mean square that is left.
-  static std::pair<double, double> fitted_power(const std::vector<double>& steps, const std::vector<double>& log_h,
-                                                const std::vector<double>& log_error, std::size_t begin,
-                                                std::size_t count) {
-    const bool with_term = count >= 5;
-    // Each of log h and log E is freed of its mean and of its part along h.
-    const auto freed = [&](const std::vector<double>& all) {
-      std::vector<double> x(all.begin() + static_cast<std::ptrdiff_t>(begin),
-                            all.begin() + static_cast<std::ptrdiff_t>(begin + count));
-      std::vector<double> h(steps.begin() + static_cast<std::ptrdiff_t>(begin),
-                            steps.begin() + static_cast<std::ptrdiff_t>(begin + count));
-      const double slope = with_term ? fitted_slope(h, x) : 0;
-      double mean = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        x[i] -= slope * h[i];
-        mean += x[i] / static_cast<double>(count);
-      }
-      for (double& each : x) each -= mean;
-      return x;
+  /// log E = a + s log h + b h^k + c h^l, by least squares.
+  struct PowerFit {
+    double order = 0;
+    double uncertainty = 0;
+    double misfit = std::numeric_limits<double>::infinity();  // 1: as noise has it
+  };
+  static PowerFit fitted_power(std::span<const OrderPoint> points, const std::vector<int>& powers) {
+    constexpr double least_noise = 1e-3;  // what of log E the terms left out are allowed
+    std::vector<std::vector<double>> columns;
+    const auto add = [&](const auto& value) {
+      std::vector<double> column;
+      for (const OrderPoint& each : points) column.push_back(value(each) / std::max(each.noise, least_noise));
+      columns.push_back(std::move(column));
     };
-    const std::vector<double> x = freed(log_h);
-    const std::vector<double> y = freed(log_error);
-    double xy = 0;
-    double xx = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      xy += x[i] * y[i];
-      xx += x[i] * x[i];
+    add([](const OrderPoint&) { return 1.0; });
+    for (const int power : powers) add([&](const OrderPoint& each) { return std::pow(each.h / points[0].h, power); });
+    add([](const OrderPoint& each) { return std::log(each.h); });
+    add([](const OrderPoint& each) { return std::log(each.error); });
+    const auto product = [](const std::vector<double>& x, const std::vector<double>& y) {
+      double sum = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+      return sum;
+    };
+    // Each column is freed of those before it: what is left of log E along what is left of log h is the exponent.
+    for (std::size_t k = 0; k + 2 < columns.size(); ++k) {
+      for (std::size_t l = k + 1; l < columns.size(); ++l) {
+        const double along = product(columns[k], columns[l]) / product(columns[k], columns[k]);
+        for (std::size_t i = 0; i < points.size(); ++i) columns[l][i] -= along * columns[k][i];
+      }
     }
-    const double slope = xy / xx;
-    double squares = 0;
-    for (std::size_t i = 0; i < count; ++i) squares += std::pow(y[i] - slope * x[i], 2);
-    return {slope, std::sqrt(squares / static_cast<double>(count))};
+    const std::vector<double>& log_h = columns[columns.size() - 2];
+    std::vector<double> rest = columns.back();
+    const double exponent = product(log_h, rest) / product(log_h, log_h);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= exponent * log_h[i];
+    const double degrees_left = static_cast<double>(points.size()) - static_cast<double>(powers.size()) - 2;
+    return {exponent - 1, 1 / std::sqrt(product(log_h, log_h)), std::sqrt(product(rest, rest) / degrees_left)};
   }
 
-  void fit_order(const std::vector<double>& steps, const std::vector<double>& log_h,
-                 const std::vector<double>& log_error, double largest_error) {
-    constexpr std::size_t fewest = 3;
-    constexpr std::size_t most = 7;
-    constexpr double power_law = 0.03;  // of log E: the errors are those of a power, and of no solver
-    if (log_h.size() < fewest) {
-      if (log_h.empty() && largest_error > 0 && largest_error < told_from_rounding * nothing_but_rounding) {
+  /// The finest part of the errors that is a power of h, with up to two terms beside it. Errors below 10^-12 are taken
+  /// last: there published coefficients of 12 digits show.
+  void fit_order(const std::vector<OrderPoint>& points, double largest_error) {
+    constexpr std::size_t fewest = 6;
+    constexpr std::size_t most_ends = 6;
+    constexpr double most_uncertainty = 0.1;
+    if (points.size() < fewest) {
+      if (points.empty() && largest_error > 0 && largest_error < told_from_rounding * nothing_but_rounding) {
         found_.order = std::numeric_limits<double>::infinity();
         reasons_.push_back("order: every step is exact to rounding");
-      } else if (log_h.empty() && failure_.empty() && largest_error == 0) {
-        reasons_.push_back("order undecided: the errors of all steps are above the size of the state");
-      } else {
-        reasons_.push_back(
-            fmt::format("order undecided: {} step lengths have errors that a slope can be fitted to, "
-                        "needed {}{}",
-                        log_h.size(), fewest, failure_.empty() ? "" : "; " + failure_));
+        return;
       }
+      reasons_.push_back(
+          fmt::format("order undecided: {} step lengths have an error that stands above noise and below "
+                      "the size of the state; a slope needs {}{}",
+                      points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
       return;
     }
-    const std::size_t count = std::min(most, log_h.size());
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t end = log_h.size(); end >= count; --end) {
-      const auto [slope, rest] = fitted_power(steps, log_h, log_error, end - count, count);
-      if (rest >= best) continue;
-      best = rest;
-      found_.order = slope - 1;
-      if (rest < power_law) return;
+    std::vector<std::size_t> ends;
+    for (std::size_t end = points.size(); end >= fewest && ends.size() < most_ends; --end) {
+      if (points[end - 1].error >= nothing_but_rounding) ends.push_back(end);
     }
-    reasons_.push_back(
-        fmt::format("order {:.2f}: the errors are no power of h, {:.0f} % off", *found_.order, 100 * best));
+    for (std::size_t end = fewest; end <= points.size(); ++end) {
+      if (points[end - 1].error < nothing_but_rounding) ends.push_back(end);
+    }
+    PowerFit best;
+    for (const std::size_t end : ends) {
+      for (const std::size_t count : {12, 9, 7, 6}) {
+        if (count > end) continue;
+        const std::span window = std::span(points).subspan(end - count, count);
+        for (const std::vector<int>& powers : {std::vector<int>{}, {1}, {2}, {1, 2}}) {
+          if (count < powers.size() + 5 && !powers.empty()) continue;
+          const PowerFit fit = fitted_power(window, powers);
+          if (fit.misfit < best.misfit) best = fit;
+          if (fit.misfit > 1 || fit.uncertainty > most_uncertainty) continue;
+          found_.order = fit.order;
+          return;
+        }
+      }
+    }
+    found_.order = best.order;
     is_power_ = false;
+    reasons_.push_back(
+        fmt::format("order undecided: the errors go like h^{:.1f} and are no power of h", best.order + 1));
   }
 
   /// Directions in units of the state: all axes, or some random ones of a large problem.
@@ -667,7 +683,7 @@ class StepExamination {
   }
 
   void compare() {
-    constexpr double tolerance = 0.3;  // twice that of verify, whose steps have more digits
+    constexpr double tolerance = 0.5;  // the nearest whole number
     bool undecided = false;
     std::vector<std::string> refuted;
     const auto compare_one = [&](const std::string& property, const std::optional<bool>& claim,

@@ -48,8 +48,8 @@ struct StepCertificate {
 /// Measures a step on a problem.
 ///
 /// - Order: errors of single steps from four states, against the flow in long double, with steps from a third of a
-///   period down until the error is 10^-12 or no smooth function of h; the exponent of log E = a + (r + 1) log h + b h
-///   over the finest seven.   [HLW2006, Sect. II.1]
+///   period down until the error is no smooth function of h; the exponent of log E = a + (r + 1) log h + b h + c h^2
+///   over the finest that fit.   [HLW2006, Sect. II.1]
 /// - Symplecticity: the Jacobian by central differences of order 6, with three difference lengths whose disagreement is
 ///   the error bound. [HLW2006, Def. VI.2.1]   Time symmetry: the distance after a step of h and one of -h. [HLW2006,
 ///   Def. II.3.1]   Invariants: their change over a step.
