@@ -181,7 +181,7 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
         "pendulum", H = p^2/2 - cos q. A Problem without a start is measured about a state that the catalogue declares
         for it, else with all q and p near 0.5; `problem.at(q=..., p=...)` chooses another one.
     order : int, optional
-        The order that is claimed; it agrees with a measured one that rounds to it.
+        The order that is claimed; it agrees within 0.5, from order 7 on within 1.
     symplectic, symmetric : bool, optional
         What is claimed. Without it the property is measured and not compared.
     preserves : str or sequence of str, optional
@@ -190,7 +190,8 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
     Returns
     -------
     StepCertificate
-        order, symplectic, symmetric, preserves, agrees, reason, for this problem: on a linear problem more may hold.
+        order, symplectic, symmetric, preserves, agrees, reason, for this problem. On a linear one, and with one degree of
+        freedom, more may hold than is claimed, which refutes nothing.
 
     Raises
     ------

@@ -610,8 +610,8 @@ class StepExamination {
   }
 
   void measure_structure() {
-    // From a thirtieth of a period, or a shorter step where that fails, to a quarter. Longer steps are taken where the
-    // shorter ones show too little.
+    // From a thirtieth of a period, or a shorter step where that fails, to a whole one. Longer steps are taken where
+    // the shorter ones show too little.
     double h = 2 * short_step_;
     const auto is_sane = [&](double length) {
       const auto error = mean_error(length);
@@ -630,7 +630,7 @@ class StepExamination {
       return decided >= 2 && decided == static_cast<int>(votes.size());
     };
     std::string no_way_back;
-    for (int k = 0; k < 4; ++k, h *= 2) {
+    for (int k = 0; k < 6; ++k, h *= 2) {
       const auto error = mean_error(h);
       if (!error || !(*error < most_error)) break;
       bool go_on = false;
@@ -683,7 +683,6 @@ class StepExamination {
   }
 
   void compare() {
-    constexpr double tolerance = 0.5;  // the nearest whole number
     bool undecided = false;
     std::vector<std::string> refuted;
     const auto compare_one = [&](const std::string& property, const std::optional<bool>& claim,
@@ -693,16 +692,30 @@ class StepExamination {
       if (!found || *found == *claim) return;
       if (*claim) {
         refuted.push_back(property + " is claimed, and does not hold");
-      } else if (!is_linear()) {  // where many properties hold by chance
+      } else if (degrees() > 1 && !is_linear()) {
         refuted.push_back(property + " is denied, and holds on this problem");
+      } else if (!is_linear()) {
+        undecided = true;
+        reasons_.push_back(property + " is denied, and holds, as may be with one degree of freedom");
       }
     };
     if (claims_.order) {
       const double claimed = *claims_.order;
+      // The nearest whole number; of high orders few errors stand above rounding, and other terms are seen with them.
+      const double tolerance = *claims_.order <= 6 ? 0.5 : 1;
       if (!found_.order || !is_power_ || std::isinf(*found_.order)) {
         undecided = true;
-      } else if (*found_.order < claimed - tolerance || (*found_.order > claimed + tolerance && !is_linear())) {
+      } else if (*found_.order < claimed - tolerance) {
         refuted.push_back(fmt::format("order {} is claimed, {:.2f} is measured", *claims_.order, *found_.order));
+      } else if (*found_.order > claimed + tolerance && !is_linear()) {
+        const std::string higher =
+            fmt::format("order {} is claimed, the higher {:.2f} is measured", *claims_.order, *found_.order);
+        if (degrees() > 1) {
+          refuted.push_back(higher);
+        } else {
+          undecided = true;
+          reasons_.push_back(higher + ", as may be with one degree of freedom");
+        }
       }
     }
     compare_one("symplectic", claims_.symplectic, found_.symplectic);

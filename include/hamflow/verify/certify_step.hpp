@@ -58,7 +58,8 @@ struct StepCertificate {
 ///   In between, as with equations that are solved to a coarse tolerance, the property is undecided.
 ///
 /// A property is one of the step on this problem: on a linear problem the trapezoidal rule is symplectic. There a
-/// higher order than the one that is claimed, or a property that is denied, refutes nothing.
+/// higher order than the one that is claimed, or a property that is denied, refutes nothing; with one degree of freedom
+/// such a claim is undecided. An order agrees within 0.5, from order 7 on within 1.
 /// @throws Error for a step that fails, keeps hidden state or changes nothing, for names of invariants that the problem
 /// does not have, and for problems with walls, with constraints or an H that depends on t
 StepCertificate certify_step(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims = {});
