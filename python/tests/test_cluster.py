@@ -10,7 +10,7 @@ import hamflow as hf
 
 distributed = pytest.importorskip("distributed")
 
-SWING = dict(problem={"name": "henon-heiles", "initial": {"q": [0.0, 0.1], "p": [0.45, 0.0]}}, method="stv4",
+SWING = dict(problem={"name": "henon-heiles", "initial": {"q": [0.0, 0.1], "p": [0.45, 0.0]}}, method={"name": "stv4"},
              run={"dt": 0.05, "steps": 200, "certificate": False})
 VARIED = {"problem.initial.q[1]": np.linspace(-0.2, 0.3, 61), "run.dt": [0.05, 0.1]}
 
