@@ -127,6 +127,10 @@ Surroundings surroundings_of(const StepProblem& problem) {
     for (const double x : xs) most = std::max(most, std::abs(x));
     return most;
   };
+  // A motion that nothing turns back, such as a free fall, has a time all the same: that in which it changes the state.
+  const double turns_over =
+      std::max(largest(q) > 0 ? largest(g.by_p) / largest(q) : 0, largest(p) > 0 ? largest(g.by_q) / largest(p) : 0);
+  if (found.frequency < 0x1p-10 * turns_over) found.frequency = turns_over;
   const double rate = found.frequency;
   double unit_q = std::max(largest(q), rate > 0 ? largest(g.by_p) / rate : 0);
   double unit_p = std::max(largest(p), rate > 0 ? largest(g.by_q) / rate : 0);
@@ -359,13 +363,15 @@ class StepExamination {
     constexpr int most_lengths = 128;
     constexpr std::size_t enough = 24;
     constexpr double smooth = 0.02;  // with more noise an error is that of rounding, or of a solver
-    constexpr int gone = 8;          // so many noisy errors in turn, a factor of 4 in h
+    constexpr double rounding_in_single_precision = 0x1p-17;
+    constexpr int gone = 8;  // so many noisy errors in turn, a factor of 4 in h
     std::vector<OrderPoint> points;
     double largest_error = 0;
     int noisy = 0;
     for (int k = 0; k < most_lengths && noisy < gone; ++k) {
       const auto point = order_point(20 * short_step_ * std::exp2(-0.25 * k));
       if (!point || !(point->error < most_error)) continue;
+      if (is_single_precision_ && point->error < rounding_in_single_precision) break;
       largest_error = std::max(largest_error, point->error);
       noisy = point->noise > smooth ? noisy + 1 : 0;
       if (noisy == 0) points.push_back(*point);
@@ -552,7 +558,8 @@ class StepExamination {
   }
 
   /// The energy, and the components of every invariant, at a state.
-  std::vector<std::vector<double>> kept_at(const State<double>& z) const {
+  /// @param t for the centre of mass, which moves on
+  std::vector<std::vector<double>> kept_at(const State<double>& z, double t = 0) const {
     const auto half = z.begin() + static_cast<std::ptrdiff_t>(degrees());
     const std::vector<double> q(z.begin(), half);
     const std::vector<double> p(half, z.end());
@@ -567,6 +574,18 @@ class StepExamination {
     for (const double x : q) request.start.q.push_back(shortest(x));
     for (const double x : p) request.start.p.push_back(shortest(x));
     for (const InvariantExcursion& each : make_simulation(request)->invariants()) all.push_back(each.initial);
+    const std::vector<InvariantInfo>& infos = problem_.entry->info.invariants;
+    const auto of_kind = [&](Terms terms) {
+      return std::find_if(infos.begin(), infos.end(), [&](const InvariantInfo& info) { return info.terms == terms; });
+    };
+    const auto centre = of_kind(Terms::centre_of_mass);
+    const auto momentum = of_kind(Terms::momenta);
+    if (centre != infos.end() && momentum != infos.end() && problem_.entry->total_mass) {
+      const double mass = problem_.entry->total_mass(problem_.parameters, degrees());
+      std::vector<double>& place = all[1 + static_cast<std::size_t>(centre - infos.begin())];
+      const std::vector<double>& total = all[1 + static_cast<std::size_t>(momentum - infos.begin())];
+      for (std::size_t c = 0; c < place.size(); ++c) place[c] -= total[c] / mass * t;
+    }
     return all;
   }
   /// By how much a unit of each number of a state moves them.
@@ -598,7 +617,7 @@ class StepExamination {
       if (!end) return std::nullopt;
       if (sizes_.size() <= k) sizes_.push_back(sizes_of_kept(z));
       const auto before = kept_at(z);
-      const auto after = kept_at(*end);
+      const auto after = kept_at(*end, h);
       for (std::size_t i = 0; i < votes.size(); ++i) {
         for (std::size_t c = 0; c < before[i].size(); ++c) {
           const double moved = std::abs(after[i][c] - before[i][c]);
@@ -622,12 +641,8 @@ class StepExamination {
     std::vector<Vote> symmetric;
     std::vector<std::vector<Vote>> kept(names().size());
     const auto is_done = [](const std::vector<Vote>& votes) {
-      int decided = 0;
-      for (const Vote& vote : votes) {
-        if (vote.is_broken()) return true;
-        if (vote.is_told() && vote.is_kept()) ++decided;
-      }
-      return decided >= 2 && decided == static_cast<int>(votes.size());
+      return std::any_of(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_broken(); }) ||
+             std::count_if(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_told(); }) >= 2;
     };
     std::string no_way_back;
     for (int k = 0; k < 6; ++k, h *= 2) {
