@@ -282,7 +282,8 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
     series.deviations.push_back(energy[i] - energy.front());
   }
   series.periods = periods_of_rate(times, series.deviations);
-  series.rounding = std::max(epsilon * largest_energy, smallest_difference(energy) / 2);
+  constexpr double parts_over_whole = 4;  // a log does not tell how large the kinetic and the potential energy are
+  series.rounding = std::max(parts_over_whole * epsilon * largest_energy, smallest_difference(energy) / 2);
   series.roundings = static_cast<double>(t.size() - 1);
   series.scale = found.scale.value_or(largest_energy);
   found.drift = classify_run(series);
@@ -305,7 +306,8 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
   } else if (!found.drift.drift && goes_straight(times, energies)) {
     found.drift.drift = DriftClass::linear;
     found.drift.reason = "the energy goes one way at a constant rate, to a ten-thousandth of its change";
-  } else if (!found.drift.drift && is_line_beneath_noise(t, energy)) {
+  } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&
+             is_line_beneath_noise(t, energy)) {  // above what roundings to one side sum up to by chance
     found.drift.drift = DriftClass::linear;
     found.drift.reason = "a straight line beneath independent noise";
   }

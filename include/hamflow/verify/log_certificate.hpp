@@ -30,8 +30,9 @@ std::optional<std::size_t> first_time_that_does_not_rise(const std::vector<doubl
 /// - `linear` needs a rate that is steady over the four quarters of the log, but for what noise and the change itself
 ///   explain: else it may be a part of an oscillation slower than the log. A straight line, of E or of log |E|, and one
 ///   beneath independent noise, needs no oscillation. `bounded` needs quarters in which the energy goes neither way;
-/// - rounding is that of the largest energy, or half of the smallest difference of two energies where that is more, as
-///   in a log with few digits; of the steps between samples one is assumed to round.
+/// - rounding is that of four times the largest energy, since its parts are larger, or half of the smallest difference
+///   of two energies where that is more, as in a log with few digits; of the steps between samples one is assumed to
+///   round.
 ///
 /// Times need not be equidistant: the log is cut into blocks of equal duration, of which each gives one of its samples.
 /// Where a gap is longer than half of the 32nd part of the log the class is undecided.
