@@ -3,12 +3,12 @@
 import os
 import signal
 
+import distributed
 import numpy as np
 import pytest
 
 import hamflow as hf
 
-distributed = pytest.importorskip("distributed")
 
 SWING = dict(problem={"name": "henon-heiles", "initial": {"q": [0.0, 0.1], "p": [0.45, 0.0]}}, method={"name": "stv4"},
              run={"dt": 0.05, "steps": 200, "certificate": False})

@@ -62,7 +62,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       rest(steps);
       return ordinary(steps);
     }
-    rest_ = 0;
+    rest_ = std::max<std::int64_t>(0, rest_ - steps);
     if (watch_) {
       take_all(*loop->step, steps);
       return Outcome::done;
@@ -311,7 +311,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
 
   /// After a block in which a check failed. A motion that has taken another branch for good fails in every block, and
   /// each costs its steps twice: the loop rests for as many steps as the block has, for twice as many after the next
-  /// failure, and so on. Where it rests for long, it is recorded anew, on the branch of that time.
+  /// failure, and so on, until it has succeeded for as many steps as it rested. Where it rests for long, it is recorded
+  /// anew, on the branch of that time.
   void rest(std::int64_t steps) {
     constexpr std::int64_t most = 1 << 20;
     rest_ = std::min(most, std::max(2 * rest_, steps));
@@ -355,7 +356,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::vector<double> kept_values_;
   std::int64_t block_ = first_block;
   std::int64_t asked_ = 0;
-  std::int64_t rest_ = 0;     // how many steps the loop rested for when a check failed last; 0: none has since
+  std::int64_t rest_ = 0;     // how many steps the loop rested for when a check failed last, less its successes since
   std::int64_t resting_ = 0;  // how many of them are left
   bool behind_walls_ = false;
   std::shared_ptr<const RecordedStep> undone_;  // lives on where loops are dropped
