@@ -273,14 +273,16 @@ bool is_hdf5(const std::filesystem::path& file) {
   return in.gcount() == 8 && std::string_view(begin.data(), 8) == "\x89HDF\r\n\x1a\n";
 }
 
-/// The paths of the datasets in a group and below it.
+/// The paths of the datasets in a group and below it; links to what stands elsewhere are left out.
 void list_datasets(hid_t group, const std::string& path, std::vector<std::string>& all) {
   constexpr std::size_t most_listed = 100;
-  constexpr std::ptrdiff_t deepest = 8;  // links may lead in circles
+  constexpr std::ptrdiff_t deepest = 8;  // a group may be in itself
   if (std::count(path.begin(), path.end(), '/') > deepest) return;
   for (const std::string& name : names_in(group)) {
     if (all.size() == most_listed) return;
-    if (!has_object(group, name)) continue;
+    H5L_info_t link;
+    const bool is_own = H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
+    if (!is_own || !has_object(group, name)) continue;
     const Hdf5Handle object(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose, "open " + path + name);
     if (H5Iget_type(object) == H5I_DATASET) all.push_back(path + name);
     if (H5Iget_type(object) == H5I_GROUP) list_datasets(object, path + name + "/", all);
@@ -315,6 +317,7 @@ std::vector<double> stored_log_column(hid_t file, const std::string& wanted, con
   if (data.kind() != StoredData::Kind::numbers)
     throw Rejection(key, "found '" + wanted + "', no numbers; allowed a dataset of numbers");
   const std::size_t width = data.width();
+  if (width == 0) throw Rejection(key, "found '" + wanted + "', which has no columns; allowed a dataset of numbers");
   if (!column && width != 1) {
     throw Rejection(key, "found '" + wanted + "', which has " + std::to_string(width) + " columns; allowed " + path +
                              ":1 to " + path + ":" + std::to_string(width));
@@ -330,10 +333,11 @@ std::vector<double> stored_log_column(hid_t file, const std::string& wanted, con
 
 LogColumns read_hdf5_columns(const std::filesystem::path& file, const std::string& time, const std::string& energy) {
   silence_hdf5();
-  const Hdf5Handle id = open_to_read(file);
+  const Hdf5Handle id = open_foreign_to_read(file);
   LogColumns columns{stored_log_column(id, time, time_key), stored_log_column(id, energy, energy_key)};
   if (columns.time.size() != columns.energy.size()) {
-    throw Rejection(energy_key, "found " + std::to_string(columns.energy.size()) + " energies; allowed " +
+    throw Rejection(energy_key, "found " + std::to_string(columns.energy.size()) +
+                                    (columns.energy.size() == 1 ? " energy" : " energies") + "; allowed " +
                                     std::to_string(columns.time.size()) + ", as many as times");
   }
   return columns;
