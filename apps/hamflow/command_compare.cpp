@@ -1,238 +1,19 @@
 // hamflow compare: several methods, several steps, one run: what accuracy costs.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <optional>
 
 #include "commands.hpp"
-#include "gas_checks.hpp"
 #include "guarded.hpp"
-#include "hamflow/methods/step_control.hpp"
-#include "hamflow/run/fitting_methods.hpp"
-#include "hamflow/run/large_steps.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
-#include "method_keys.hpp"
 #include "progress.hpp"
-#include "run_keys.hpp"
-#include "wall_checks.hpp"
 
 namespace hamflow::app {
 
 namespace {
-
-/// The command line beside the scenario: what is compared, and what is wrong with it, a line each.
-class RequestReader {
- public:
-  RequestReader(const Scenario& scenario, const CompareOptions& options)
-      : scenario_(scenario), varies_by_file_(describe(scenario.request.method).varies_steps) {
-    SharedMethodKeys shared(scenario_text(options.scenario), options.sets);
-    read_methods(options.methods, shared);
-    if (varies_by_file_) {
-      const std::string key = std::string("method.") + step_control_option;
-      complain_of(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by --set " +
-                           key + "=" + fixed_steps +
-                           ": all methods of a comparison end at one time, steps of varying length do not");
-    }
-    request.request = scenario.request;
-    request.t_end = scenario.dt * static_cast<double>(scenario.steps);
-    request.t_end_text = "(" + scenario.request.dt + ")*" + std::to_string(scenario.steps);
-    if (!(std::abs(request.t_end) > 0)) {
-      const std::string t_end = run_path(run_keys().t_end);
-      complain_of(scenario.settings.contains(t_end) ? t_end : run_path(run_keys().steps),
-                  "found a run of no time; allowed one with at least a step");
-    } else {
-      read_steps(options.dts);
-    }
-    const std::vector<std::string> unused = shared.notes(request.steps.size() == 1);
-    notes.insert(notes.begin(), unused.begin(), unused.end());
-    if (!options.figure.empty()) complain_if("--figure", refused_comparison_figure(options.figure));
-  }
-
-  ComparisonRequest request;
-  std::vector<std::string> notes;
-  std::vector<Complaint> complaints;
-
- private:
-  void complain(const std::string& key, const std::string& message) {
-    complaints.push_back({scenario_.file, 0, 0, key, message});
-  }
-  /// Where the key stands in the file, if it does.
-  void complain_of(const std::string& key, const std::string& message) {
-    const auto set = scenario_.settings.find(key);
-    const bool in_file = set != scenario_.settings.end();
-    complaints.push_back(
-        {scenario_.file, in_file ? set->second.line : 0, in_file ? set->second.column : 0, key, message});
-  }
-  void complain_if(const std::string& key, const std::string& message) {
-    if (!message.empty()) complain(key, message);
-  }
-
-  void read_methods(const std::string& text, SharedMethodKeys& shared) {
-    const std::vector<std::string> all = split_list(text);
-    for (const std::string& name : all) {
-      try {
-        MethodSpec method = parse_method(name);
-        if (!varies_by_file_) shared.add_to(method, name);
-        std::string why_not;
-        auto refused = refused_option(method);
-        if (!refused) refused = refused_option(method, scenario_.start_q.size());
-        if (refused) why_not = "method." + refused->name + ": " + refused->message;
-        if (why_not.empty())
-          why_not = refusal_with_advice(method, scenario_.problem.get(), scenario_.request.arithmetic);
-        if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
-        Request one = scenario_.request;
-        one.method = method;
-        if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
-        if (why_not.empty()) why_not = refused_fast_step(one);
-        if (why_not.empty()) why_not = refused_walls(one);
-        if (why_not.empty()) why_not = refused_by_size(one, scenario_.start_q.size());
-        if (why_not.empty() && describe(method).varies_steps) {
-          why_not = "allowed step_control=fixed: steps of varying length do not end at the same time";
-        }
-        if (why_not.empty()) {
-          request.methods.push_back(method);
-          for (const ReplacedOption& replaced : replaced_options(method, scenario_.start_q.size())) {
-            notes.push_back("'" + name + "': " + replaced.name + " = " + replaced.message);
-          }
-        } else {
-          complain("--methods", "found '" + name + "'; " + why_not);
-        }
-      } catch (const Error& error) {
-        const std::string what = error.what();
-        complain("--methods", what.starts_with("found") ? what : "found '" + name + "'; " + what);
-      }
-    }
-    if (complaints.empty()) refuse_the_same(all);
-  }
-
-  /// Rows are told apart by the names of their methods.
-  void refuse_the_same(const std::vector<std::string>& typed) {
-    const std::vector<std::string> names = comparison_names(request.methods);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto first = static_cast<std::size_t>(std::find(names.begin(), names.end(), names[i]) - names.begin());
-      if (first < i)
-        complain("--methods", "found '" + typed[i] + "' and '" + typed[first] +
-                                  "', the same method with the same options; allowed once");
-    }
-  }
-
-  std::string refused_walls(const Request& one) const {
-    const std::string why_not = refused_by_walls(one, *scenario_.problem, scenario_.start_q);
-    return why_not.empty() ? "" : "problem.wall_rule = \"" + rule_of_walls(one) + "\" " + why_not;
-  }
-
-  /// The run with this dt is then the single run, bit for bit.
-  void keep_dt(std::int64_t steps, const std::string& dt) {
-    if (divides_exactly(dt, steps, request.t_end_text, request.request.arithmetic)) request.dts.emplace(steps, dt);
-  }
-
-  /// The nearest number of steps that ends at t_end.
-  void read_steps(const std::string& text) {
-    if (text.empty()) {
-      request.steps = usual_step_counts(scenario_.steps);
-      for (const std::int64_t steps : request.steps) {  // halves and doubles of dt, which no arithmetic rounds
-        if (steps % scenario_.steps == 0) {
-          keep_dt(steps, "(" + scenario_.request.dt + ")/" + std::to_string(steps / scenario_.steps));
-        } else if (scenario_.steps % steps == 0) {
-          keep_dt(steps, "(" + scenario_.request.dt + ")*" + std::to_string(scenario_.steps / steps));
-        }
-      }
-      return;
-    }
-    for (const std::string& part : split_list(text)) {
-      double dt = 0;
-      bool backwards = false;
-      try {
-        const double given = evaluate_number<double>(part);
-        backwards = given * request.t_end < 0;
-        dt = std::abs(given);
-      } catch (const Error& error) {
-        complain("--dt", "found '" + part + "'; allowed numbers with commas between (" + error.what() + ")");
-        continue;
-      }
-      const double count = std::round(std::abs(request.t_end) / dt);
-      if (!(dt > 0) || !(count < 0x1p53)) {
-        complain("--dt", "found '" + part + "'; allowed a number other than 0 that fits into t_end = " +
-                             shortest(request.t_end) + " less than 2^53 times");
-        continue;
-      }
-      if (backwards && part.find('-') != std::string::npos) {
-        notes.push_back("dt = " + part + " goes away from t_end = " + shortest(request.t_end) +
-                        "; dt = " + shortest(dt) + " is taken");
-      }
-      const auto steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
-      const double fitting = std::abs(request.t_end) / static_cast<double>(steps);
-      if (std::abs(fitting - dt) > 1e-9 * dt) {
-        notes.push_back("dt = " + part + " does not divide t_end = " + shortest(request.t_end) +
-                        "; dt = " + shortest(fitting) + " is taken");
-      }
-      request.steps.push_back(steps);
-      keep_dt(steps, (evaluate_number<double>(part) * request.t_end < 0 ? "-(" : "(") + part + ")");
-    }
-    std::sort(request.steps.begin(), request.steps.end());
-    request.steps.erase(std::unique(request.steps.begin(), request.steps.end()), request.steps.end());
-  }
-
-  const Scenario& scenario_;
-  const bool varies_by_file_;
-};
-
-/// A method as [method] would have it, with what it takes of the scenario's.
-std::string as_table(const std::string& name, SharedMethodKeys& shared) {
-  std::string table = "{ " + method_name_key().name + " = \"" + name + "\"";
-  try {
-    const MethodSpec own = parse_method(name);
-    MethodSpec method = own;
-    shared.add_to(method, name);
-    for (const OptionInfo& option : find_method(method.name).family->options) {
-      if (own.options.contains(option.name) || !method.options.contains(option.name)) continue;
-      table += ", " + option.name + " = " + toml_text(option, method.options.at(option.name));
-    }
-  } catch (const Error&) {  // the reader complains about it
-  }
-  for (const std::string& key : shared.unknown()) table += ", \"" + key + "\" = 0";
-  return table + " }";
-}
-
-/// The file's own method is not run, and need not fit. What is wrong with the scenario is what stays with every method
-/// of the comparison; what comes with one of them alone is wrong with that one.
-Scenario read_for(const CompareOptions& options, std::vector<std::string>& notes) {
-  const Reading own = read_scenario(options.scenario, options.sets);
-  if (own.scenario) return *own.scenario;
-  std::vector<Complaint> of_all = own.complaints;
-  std::vector<Complaint> of_methods;
-  SharedMethodKeys shared(scenario_text(options.scenario), options.sets);
-  for (const std::string& name : split_list(options.methods)) {
-    if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);  // no name at all
-    std::vector<std::string> sets = options.sets;
-    sets.push_back("method=" + as_table(name, shared));
-    const Reading with = read_scenario(options.scenario, sets);
-    if (with.scenario) {
-      const Complaint& first = own.complaints.front();
-      notes.push_back("the method of the file, which a comparison does not run, would be refused: " + first.key + ": " +
-                      first.message);
-      return *with.scenario;
-    }
-    const auto is_there = [](const std::vector<Complaint>& all, const Complaint& one) {
-      return std::any_of(all.begin(), all.end(), [&](const Complaint& other) { return other.text() == one.text(); });
-    };
-    std::erase_if(of_all, [&](const Complaint& one) { return !is_there(with.complaints, one); });
-    for (const Complaint& one : with.complaints) {
-      if (is_there(own.complaints, one)) continue;
-      const bool names_it = one.key == "method." + method_name_key().name;
-      const std::size_t behind = one.message.find("; ");
-      const std::string why = names_it && one.message.starts_with("found") && behind != std::string::npos
-                                  ? one.message.substr(behind + 2)
-                                  : (names_it ? "" : one.key + ": ") + one.message;
-      of_methods.push_back({one.file, 0, 0, "--methods", "found '" + name + "'; " + why});
-    }
-  }
-  of_all.insert(of_all.end(), of_methods.begin(), of_methods.end());
-  throw Rejection(of_all.empty() ? own.complaints : of_all);
-}
 
 ComparisonReport carry_out(const ComparisonRequest& request, const CompareOptions& options) {
   catch_interrupts();
@@ -246,19 +27,18 @@ ComparisonReport carry_out(const ComparisonRequest& request, const CompareOption
 }
 
 int compare(const CompareOptions& options) {
-  std::vector<std::string> notes;
-  const Scenario scenario = read_for(options, notes);
-  const RequestReader reader(scenario, options);
-  if (!reader.complaints.empty()) throw Rejection(reader.complaints);
-  print_notes(notes, options.quiet);
-  // What is not used of [method] is told of the methods that are compared.
-  std::vector<std::string> of_scenario = scenario.notes;
-  std::erase_if(of_scenario, [](const std::string& note) { return note.starts_with("method."); });
-  print_notes(of_scenario, options.quiet);
-  note_unused_measures(scenario, "a comparison takes every step and looks at energies and ends", options.quiet);
-  note_unused_figures(scenario, "a comparison draws with --figure FILE", options.quiet);
-  print_notes(reader.notes, options.quiet);
-  print_notes(comparison_notes(reader.request), options.quiet);
+  ComparisonReading reading =
+      read_comparison({.text = scenario_text(options.scenario),
+                       .name = options.scenario,
+                       .sets = options.sets,
+                       .methods = split_list(options.methods),
+                       .dts = options.dts.empty() ? std::vector<std::string>() : split_list(options.dts)});
+  if (!options.figure.empty()) {
+    const std::string why_not = refused_comparison_figure(options.figure);
+    if (!why_not.empty()) reading.complaints.push_back({"", 0, 0, "--figure", why_not});
+  }
+  if (!reading.complaints.empty()) throw Rejection(reading.complaints);
+  print_notes(reading.notes, options.quiet);
   require_folder_of(options.figure);
   require_folder_of(options.csv);
   const bool writes = !options.out.empty() && options.out != "none";
@@ -267,7 +47,7 @@ int compare(const CompareOptions& options) {
     folder.emplace(options.out, comparison_folder(), options.force ? Existing::replace : Existing::refuse);
     folder->prepare();
   }
-  const ComparisonReport report = carry_out(reader.request, options);
+  const ComparisonReport report = carry_out(reading.request, options);
   std::cout << (options.json ? report.json : report.text);
   print_warnings(report.warnings);
   if (report.status == "failed") print_error(report.message, report.hint);

@@ -1,6 +1,4 @@
 // hamflow convert: states, scenarios and runs in the other coordinates of their problem.
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <iostream>
 
@@ -92,13 +90,7 @@ void convert_run(const ConvertOptions& options) {
         (options.json ? " with --json; allowed a file .json" : "; allowed a file .h5 or .csv, or .json with --json"));
   }
   const ConvertedRun run(options.input, options.to);
-  if (run.largest_turn() > 2) {
-    const std::string note = fmt::format(
-        "{} changes by up to {:.3g} from one sample to the next; where that is more than half a turn, turns are "
-        "missing",
-        run.turning(), run.largest_turn());
-    print_notes({note}, false);
-  }
+  if (!run.note().empty()) print_notes({run.note()}, false);
   if (extension == ".h5") {
     const std::string note = run.write_h5(options.output);
     if (!note.empty()) print_notes({note}, false);

@@ -7,6 +7,7 @@
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/reverse.hpp"
 #include "progress.hpp"
+#include "unused_keys.hpp"
 
 namespace hamflow::app {
 
@@ -18,8 +19,9 @@ int reverse_command(const ReverseOptions& options) {
       throw Rejection("--resume", "found --resume without a folder; allowed with --out DIR, where the reversal is");
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
-    note_unused_measures(scenario, "a reversal takes every step and asks what came back", options.quiet);
-    note_unused_figures(scenario, "a reversal draws nothing; hamflow plot draws what --out DIR keeps", options.quiet);
+    print_notes(unused_measures(scenario, "a reversal takes every step and asks what came back"), options.quiet);
+    print_notes(unused_figures(scenario, "a reversal draws nothing; hamflow plot draws what --out DIR keeps"),
+                options.quiet);
     ReversalSettings settings;
     if (writes) settings.folder = options.out;
     settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;

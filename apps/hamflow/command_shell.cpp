@@ -20,6 +20,7 @@
 #include "hamflow/workflow/session.hpp"
 #include "progress.hpp"
 #include "run_keys.hpp"
+#include "unused_keys.hpp"
 
 namespace hamflow::app {
 
@@ -347,8 +348,8 @@ int shell_command(const ShellOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
-    note_unused_measures(scenario, "a session takes every step that it is told to", options.quiet);
-    note_unused_figures(scenario, "a session draws nothing; hamflow plot draws what save keeps", options.quiet);
+    print_notes(unused_measures(scenario, "a session takes every step that it is told to"), options.quiet);
+    print_notes(unused_figures(scenario, "a session draws nothing; hamflow plot draws what save keeps"), options.quiet);
     if (!scenario.record.empty())
       print_notes({run_path(run_keys().record) + " is not used: a session keeps samples by steps"}, options.quiet);
     return Shell(scenario, options).read_commands();

@@ -6,12 +6,10 @@
 #include <iostream>
 #include <new>
 
-#include "hamflow/core/text.hpp"
 #include "hamflow/figures/while_drawing.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
 #include "progress.hpp"
-#include "run_keys.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow::app {
@@ -84,22 +82,6 @@ int written_behind_report(const std::function<void()>& files) {
 void print_notes(const std::vector<std::string>& notes, bool quiet) {
   if (quiet) return;
   for (const std::string& note : notes) std::cerr << "note: " << note << '\n';
-}
-
-void note_unused_measures(const Scenario& scenario, const std::string& why, bool quiet) {
-  const RunKeys& keys = run_keys();
-  std::vector<std::string> unused;
-  if (scenario.lyapunov > 0) unused.push_back(run_path(keys.lyapunov));
-  if (scenario.eigenvalues) unused.push_back(run_path(keys.eigenvalues));
-  if (scenario.section) unused.push_back(run_path(keys.section));
-  if (!scenario.events.empty()) unused.push_back(run_path(keys.events));
-  if (unused.empty()) return;
-  print_notes({joined(unused) + (unused.size() == 1 ? " is" : " are") + " not used: " + why}, quiet);
-}
-
-void note_unused_figures(const Scenario& scenario, const std::string& why, bool quiet) {
-  if (scenario.figures.empty()) return;
-  print_notes({output_path(output_keys().figures) + " is not used: " + why}, quiet);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

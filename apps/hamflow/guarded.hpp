@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "hamflow/scenario/scenario.hpp"
 #include "kept_work.hpp"
 
 namespace hamflow::app {
@@ -25,10 +24,6 @@ int written_behind_report(const std::function<void()>& files);
 
 /// Notes and errors on stderr, a line each.
 void print_notes(const std::vector<std::string>& notes, bool quiet);
-/// What is measured beside a run, by a command that does not: "note: run.section is not used: WHY".
-void note_unused_measures(const Scenario& scenario, const std::string& why, bool quiet);
-/// The same of output.figures, by a command that draws none of them.
-void note_unused_figures(const Scenario& scenario, const std::string& why, bool quiet);
 /// Also with --quiet: "warning: ..." each.
 void print_warnings(const std::vector<std::string>& warnings);
 void print_error(const std::string& message, const std::string& hint = {}, const std::string& details = {});

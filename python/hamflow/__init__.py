@@ -17,21 +17,27 @@ from types import SimpleNamespace
 from typing import Any
 
 from . import _core
+from . import _html
 from ._certify import LogCertificate, StepCertificate, certify, certify_step
+from ._compare import Compare, compare
+from ._convert import convert
 from ._errors import Error, FileError, Rejection, StepFailed
 from ._problem import Problem
 from ._run import Reversal, Run, States, open, reverse, run
 from ._scenario import Scenario
+from ._show import Shown, show
 from ._simulation import Simulation, Trajectory
 from ._sweep import Sweep, propagate, sweep
 from ._trace import acos, asin, atan, atan2, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
+from ._verify import Verification, verify
 
 __version__: str = _core.version
 
-__all__ = ["Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario", "Simulation",
-           "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "acos", "asin", "atan", "atan2", "certify",
-           "certify_step", "cos", "cosh", "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run",
-           "sin", "sinh", "sqrt", "sweep", "tan", "tanh"]
+__all__ = ["Compare", "Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario",
+           "Shown", "Simulation", "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "Verification",
+           "acos", "asin", "atan", "atan2", "certify", "certify_step", "compare", "convert", "cos", "cosh", "exp",
+           "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "sweep",
+           "tan", "tanh", "verify"]
 
 
 class Infos(list):  # type: ignore[type-arg]
@@ -42,9 +48,7 @@ class Infos(list):  # type: ignore[type-arg]
 
     def _repr_html_(self) -> str:
         names = list(vars(self[0])) if self else []
-        head = "".join(f"<th>{name}</th>" for name in names)
-        rows = "".join("<tr>" + "".join(f"<td>{getattr(each, name)}</td>" for name in names) + "</tr>" for each in self)
-        return f"<table><tr>{head}</tr>{rows}</table>"
+        return _html.table(names, ([getattr(each, name) for name in names] for each in self))
 
 
 def methods(problem: Problem | None = None, /) -> Infos:

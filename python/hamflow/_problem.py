@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import html
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _html
 from ._trace import traced
 
 Numbers = npt.NDArray[np.float64]
@@ -122,11 +121,13 @@ class Problem:
         -------
         float, or array of shape (n,)
         """
-        return self._core.energy(_state(q, "q"), _state(p, "p"))
+        found: float | Numbers = self._core.energy(_state(q, "q"), _state(p, "p"))
+        return found
 
     def gradient(self, q: npt.ArrayLike, p: npt.ArrayLike) -> tuple[Numbers, Numbers]:
         """(dH/dq, dH/dp), of the shape of q and p, (d,) or (n, d)."""
-        return self._core.gradient(_state(q, "q"), _state(p, "p"))
+        by_q, by_p = self._core.gradient(_state(q, "q"), _state(p, "p"))
+        return by_q, by_p
 
     def at(self, *, q: Sequence[Any] | Numbers | None = None, p: Sequence[Any] | Numbers | None = None,
            **initial: Any) -> dict[str, Any]:
@@ -148,7 +149,7 @@ class Problem:
         return f"<hamflow.Problem {self.name}: H = {self.formula}>"
 
     def _repr_html_(self) -> str:
-        return f"<code>H = {html.escape(self.formula)}</code>"
+        return _html.formula(f"H = {self.formula}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Problem, (self.table,))
@@ -176,4 +177,4 @@ def _state(x: npt.ArrayLike, name: str) -> Numbers:
 
 
 def _list(x: Any) -> list[Any]:
-    return x.tolist() if isinstance(x, np.ndarray) else list(x)
+    return list(x.tolist() if isinstance(x, np.ndarray) else x)

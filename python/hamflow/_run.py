@@ -8,15 +8,15 @@ import shutil
 import sys
 import tempfile
 import time
-from decimal import Decimal
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Mapping
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _html
+from ._digits import decimals
 from ._errors import Error, FileError, StepFailed
 from ._scenario import Scenario, scenario_of
 
@@ -60,22 +60,30 @@ class Run:
     status : str
         "done", "failed", "interrupted", or "running" of an opened run without a summary.
     t, q, p, energy : arrays of shape (n,), (n, d), (n, d), (n,)
-        The samples; read-only views.
+        The samples; read-only views of float64. With digits=True, which run() and open() take, arrays of
+        decimal.Decimal (dtype object) with all digits of an arithmetic beyond double.
     summary : dict
         That of `hamflow run --json`.
     scenario : Scenario
+    folder : Path or None
+        Where the run is kept.
+    notes : list of str
+        What is worth knowing of how the run began: keys that are not used, where it went on.
     """
 
-    def __init__(self, scenario: Scenario, tables: Mapping[str, Any], summary: str, folder: Path | None) -> None:
-        self.scenario, self._tables, self._json, self.folder = scenario, tables, summary, folder
-        samples = tables["samples"]
+    def __init__(self, scenario: Scenario, tables: Any, summary: str, folder: Path | None, digits: bool = False,
+                 notes: list[str] | None = None) -> None:
+        self.scenario, self._tables, self.folder = scenario, tables, folder
+        self.notes = [*scenario._core.notes, *(notes or [])]
+        samples = tables.samples
         self._samples = samples
         self.summary: dict[str, Any] = json.loads(summary) if summary else {}
         self.status: str = self.summary.get("status", "running")
-        self.t: Numbers = samples["t"]
-        self.q: Numbers = samples["q"]
-        self.p: Numbers = samples["p"]
-        self.energy: Numbers = samples["energy"]
+        read = self.digits if digits else samples.__getitem__
+        self.t: npt.NDArray[Any] = read("t")
+        self.q: npt.NDArray[Any] = read("q")
+        self.p: npt.NDArray[Any] = read("p")
+        self.energy: npt.NDArray[Any] = read("energy")
         self.warnings: list[SimpleNamespace] = _as_attributes(self.summary.get("warnings", []))
 
     @property
@@ -83,24 +91,29 @@ class Run:
         """The names that [] takes."""
         short = [name.split("/", 1)[1] for name in self._samples.columns
                  if name.startswith(("observables/", "invariants/"))]
-        return ["t", *self.scenario.coordinates, *self.scenario.momenta, *short, *self._samples.columns]
+        return list(dict.fromkeys(["t", *self.scenario.coordinates, *self.scenario.momenta, *short, *self._samples.columns]))
 
     def __getitem__(self, name: str) -> Any:
         if name in self.scenario.coordinates:
             return self.q[:, self.scenario.coordinates.index(name)]
         if name in self.scenario.momenta:
             return self.p[:, self.scenario.momenta.index(name)]
+        if name in ("t", "q", "p", "energy"):
+            return getattr(self, name)
         for place in (name, "observables/" + name, "invariants/" + name):
             if place in self._samples:
                 return self._samples[place]
-        raise KeyError(f"no column {name!r}; there are {', '.join(dict.fromkeys(self.columns))}")
+        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
 
     def digits(self, name: str) -> npt.NDArray[Any]:
-        """t, q, p or energy with all their digits, as an array of decimal.Decimal."""
-        if f"digits/{name}" not in self._samples:
-            raise Error("digits are kept in arithmetic beyond double; in double the columns have all of them")
-        return np.array([[Decimal(x) for x in row] if isinstance(row, list) else Decimal(row)
-                         for row in self._samples[f"digits/{name}"]], dtype=object)
+        """t, q, p or energy with all their digits, as an array of decimal.Decimal.
+
+        Raises
+        ------
+        Error
+            In double, where the columns have all digits.
+        """
+        return decimals(self._samples, name)
 
     @property
     def certificate(self) -> Any:
@@ -115,17 +128,17 @@ class Run:
     @property
     def section(self) -> States | None:
         """The points of run.section."""
-        return States(self._tables["section"]) if "section" in self._tables else None
+        return States(self._tables.section) if self._tables.section is not None else None
 
     @property
     def bounces(self) -> States | None:
         """The bounces off hard walls that were recorded."""
-        return States(self._tables["bounces"]) if "bounces" in self._tables else None
+        return States(self._tables.bounces) if self._tables.bounces is not None else None
 
     @property
     def events(self) -> dict[str, States]:
         """The events of run.events by name."""
-        return {name: States(table) for name, table in self._tables["events"].items()}
+        return {name: States(table) for name, table in self._tables.events.items()}
 
     @property
     def observables(self) -> dict[str, Numbers]:
@@ -139,27 +152,52 @@ class Run:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame of t, coordinates, momenta and energy."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         names = ["t", *self.scenario.coordinates, *self.scenario.momenta, "energy"]
         return pandas.DataFrame({name: self[name] for name in names})
 
-    def plot(self, kind: str = "energy-error", ax: Any = None) -> Any:
-        """Draws on matplotlib axes, new ones without `ax`, and returns them.
+    def _page(self, kind: str, x: str = "", y: Sequence[str] = (), at: Sequence[float] = ()) -> dict[str, Any]:
+        return dict(_core.page(self.scenario._core, self._tables, kind, x, list(y), [float(time) for time in at]))
 
-        Kinds: "orbit", "phase", "time", "energy-error", "section"; `figure` draws all kinds of the command.
+    def plot(self, kind: str = "", ax: Any = None, *, x: str = "", y: Sequence[str] = (),
+             at: Sequence[float] = ()) -> Any:
+        """Draws a figure on matplotlib axes.
+
+        Parameters
+        ----------
+        kind : str
+            "orbit", "time", "energy", "energy-error", "phase", "section", "particles", "tracks", "radial",
+            "condition"; `hamflow.show(kind)` says what each shows. Default: the first that the run allows.
+        ax : matplotlib axes, or an array of them, optional
+            One for each panel; a single one takes the first panel. Default: new ones.
+        x, y : str, list of str
+            Columns over one another, of "time", "orbit" and "phase".
+        at : list of float
+            Times, of "particles" and "radial".
+
+        Returns
+        -------
+        The axes; an array of them where the figure has several panels.
+
+        Raises
+        ------
+        Error
+            Where the run has no such figure.
         """
-        from ._plot import draw
+        from ._page import draw
 
-        return draw(self, kind, ax)
+        return draw(self._page(kind, x, y, at), ax)
 
-    def figure(self, kind: str, file: str | os.PathLike[str]) -> None:
-        """Draws a figure of the command by gnuplot: .svg, .pdf or .png."""
+    def figure(self, kind: str, file: str | os.PathLike[str], *, x: str = "", y: Sequence[str] = (),
+               at: Sequence[float] = ()) -> None:
+        """Draws the same as the command does, by gnuplot: .svg, .pdf or .png."""
+        more = (x, list(y), [float(time) for time in at])
         if self.folder is not None:
-            _core.draw(self.folder, kind, os.fspath(file))
+            _core.draw(self.folder, kind, os.fspath(file), *more)
             return
         with tempfile.TemporaryDirectory() as place:
-            _core.draw(self.save(Path(place) / "a.run"), kind, os.fspath(file))
+            _core.draw(self.save(Path(place) / "a.run"), kind, os.fspath(file), *more)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes the folder that `hamflow run` leaves: the run is copied, or carried out once more, with the same bits."""
@@ -183,29 +221,80 @@ class Run:
                 ("method", self.summary.get("method", "")), ("steps", self.summary.get("steps", "")),
                 ("energy error", self.summary.get("energy", {}).get("max_relative_error", "")),
                 ("drift", getattr(self.certificate, "drift", ""))]
-        return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
+        return _html.facts(rows) + self._first_figure()
+
+    def _first_figure(self) -> str:
+        """The first figure of the scenario, or the usual one, as SVG; empty where there is nothing to draw."""
+        from ._page import svg
+
+        try:
+            return svg(self._page((self.scenario._core.figures or [""])[0]))
+        except (Error, FileError):
+            return ""
 
 
 def _progress(asked: bool | Progress | None, total: int) -> Callable[[int], None] | None:
     """What is told of steps taken. By default a line on a terminal for what takes longer than 2 s."""
     if asked is None:
-        asked = sys.stderr.isatty()
+        asked = sys.stderr is not None and sys.stderr.isatty() or "ipykernel" in sys.modules
     if asked is False:
         return None
     if callable(asked):
         told = asked
-        return lambda steps: told(min(steps, total), total)
+
+        def tell(steps: int) -> None:
+            told(min(steps, total), total)
+
+        return tell
     begin = time.monotonic()
+    bars: list[Callable[[int], None]] = []
 
     def line(steps: int) -> None:
-        if time.monotonic() - begin > 2 and sys.stderr is not None:
-            print(f"\r{100 * steps / max(total, 1):5.1f} %", end="", file=sys.stderr, flush=True)
+        if time.monotonic() - begin > 2:
+            if not bars:
+                bars.append(_bar(total))
+            bars[0](steps)
 
     return line
 
 
+def _bar(total: int) -> Callable[[int], None]:
+    """A bar of tqdm if it is there, else a line on stderr."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        def percent(steps: int) -> None:
+            if sys.stderr is not None:
+                print(f"\r{100 * steps / max(total, 1):5.1f} %", end="", file=sys.stderr, flush=True)
+
+        return percent
+    bar = tqdm(total=total)
+
+    def update(steps: int) -> None:
+        bar.update(steps - bar.n)
+
+    return update
+
+
+def progress_of_both(asked: bool | Progress | None) -> Progress | None:
+    """The same for work whose total is known once it is told of the first time."""
+    if callable(asked):
+        return asked
+    if asked is False:
+        return None
+    told: list[Callable[[int], None] | None] = []
+
+    def of_both(steps: int, total: int) -> None:
+        if not told:
+            told.append(_progress(asked, total))
+        if told[0] is not None:
+            told[0](steps)
+
+    return of_both
+
+
 def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing: str = "error",
-        progress: bool | Progress | None = None, certificate: bool = True) -> Run:
+        progress: bool | Progress | None = None, certificate: bool = True, digits: bool = False) -> Run:
     """Carries out a scenario.
 
     Parameters
@@ -214,11 +303,14 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
     out : path, optional
         The folder that the run leaves, as that of the command. Default: nothing is written.
     existing : "error", "replace" or "resume"
-        What to do with a folder that exists.
+        What to do with a folder that exists. "resume" goes on from its last checkpoint, bit for bit, and begins where
+        there is none.
     progress : bool or callable(done, total), optional
         Default: on a terminal, for what takes longer than 2 s.
     certificate : bool
         Whether the run ends with a certificate, which costs at most a tenth more or a second.
+    digits : bool
+        Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double.
 
     Returns
     -------
@@ -231,6 +323,14 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
         Its attribute `partial` is the run up to the last good step.
     KeyboardInterrupt
         Likewise; with a folder, existing="resume" goes on.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 1000})
+    >>> run = hf.run(s)
+    >>> run.q.shape, run.status
+    ((1001, 1), 'done')
     """
     wanted = scenario_of(scenario)
     if not certificate:
@@ -239,10 +339,10 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
     folder = None if out is None else Path(out)
     found = _core.run(wanted._core, folder if folder is not None else "", existing, _progress(progress, wanted.steps))
     if folder is not None:
-        opened = _core.open_run(folder) if (folder / "run.h5").exists() else {"tables": found["tables"]}
-        result = Run(wanted, opened["tables"], found["json"], folder)
+        opened = _core.open_run(folder) if (folder / "run.h5").exists() else found
+        result = Run(wanted, opened["tables"], found["json"], folder, digits, found["notes"])
     else:
-        result = Run(wanted, found["tables"], found["json"], None)
+        result = Run(wanted, found["tables"], found["json"], None, digits, found["notes"])
     if found["interrupted"]:
         error: BaseException = KeyboardInterrupt()
         error.partial = result  # type: ignore[attr-defined]
@@ -259,13 +359,26 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
     return result
 
 
-def open(run: str | os.PathLike[str], /) -> Run:  # noqa: A001
-    """A run in a folder, or its run.h5, also while it grows."""
+def open(run: str | os.PathLike[str], /, *, digits: bool = False) -> Run:  # noqa: A001
+    """A run in a folder, or its run.h5, also while it grows.
+
+    Parameters
+    ----------
+    run : path
+    digits : bool
+        Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double.
+
+    Raises
+    ------
+    FileError
+    Error
+        With digits=True, where the run is in double.
+    """
     path = Path(run)
     found = _core.open_run(path)
     scenario = Scenario.__new__(Scenario)
     scenario._core, scenario._name = found["scenario"], str(path)
-    return Run(scenario, found["tables"], found["json"], path if path.is_dir() else path.parent)
+    return Run(scenario, found["tables"], found["json"], path if path.is_dir() else path.parent, digits)
 
 
 class Reversal:
@@ -282,5 +395,22 @@ class Reversal:
 
 
 def reverse(scenario: Any, /) -> Reversal:
-    """Tests time reversibility: integrates forward, reverses the momenta, integrates back."""
+    """Tests time reversibility: integrates forward, reverses the momenta, integrates back.
+
+    Parameters
+    ----------
+    scenario : Scenario, dict of tables, or name of a TOML file
+
+    Raises
+    ------
+    Rejection, KeyboardInterrupt
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4",
+    ...                 run={"dt": 0.1, "steps": 100, "arithmetic": "lattice"})
+    >>> hf.reverse(s).bit_exact
+    True
+    """
     return Reversal(_core.reverse(scenario_of(scenario)._core)[0])

@@ -16,7 +16,7 @@ class Scenario:
     Parameters
     ----------
     tree : mapping, optional
-        All tables, {"problem": {...}, "method": {...}, "run": {...}}.
+        All tables, {"problem": {...}, "method": {...}, "run": {...}}, of which each may be what the keyword takes.
     problem : Problem or mapping, optional
         A problem with its start, as from `Problem.at`.
     method : str or mapping, optional
@@ -40,20 +40,9 @@ class Scenario:
     def __init__(self, tree: Mapping[str, Any] | None = None, /, *, problem: Problem | Mapping[str, Any] | None = None,
                  method: str | Mapping[str, Any] | None = None, run: Mapping[str, Any] | None = None,
                  output: Mapping[str, Any] | None = None) -> None:
-        all_tables = {}
-        for name, table in (tree or {}).items():
-            if not isinstance(table, Mapping):
-                raise Error(f"{name}: found {table!r}; allowed a table, as a dict")
-            all_tables[name] = dict(table)
-        if problem is not None:
-            all_tables["problem"] = dict(problem.table if isinstance(problem, Problem) else problem)
-        if method is not None:
-            all_tables["method"] = {"name": method} if isinstance(method, str) else dict(method)
-        if run is not None:
-            all_tables["run"] = dict(run)
-        if output is not None:
-            all_tables["output"] = dict(output)
-        self._read(_core.scenario_text(all_tables), "scenario")
+        given = {"problem": problem, "method": method, "run": run, "output": output}
+        all_tables = dict(tree or {}) | {name: table for name, table in given.items() if table is not None}
+        self._read(_core.scenario_text(tables_of(all_tables)), "scenario")
 
     def _read(self, text: str, name: str, sets: list[str] | None = None) -> None:
         self._core = _core.Scenario.read(text, name, sets or [])
@@ -106,12 +95,35 @@ class Scenario:
         return (Scenario.from_text, (str(self), self._name))
 
 
+def tables_of(tree: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a scenario, each a dict of its own; a method may be its name, a problem a Problem."""
+    tables: dict[str, Any] = {}
+    for name, table in tree.items():
+        if name == "method" and isinstance(table, str):
+            tables[name] = {"name": table}
+        elif name == "problem" and isinstance(table, Problem):
+            tables[name] = dict(table.table)
+        elif isinstance(table, Mapping):
+            tables[name] = dict(table)
+        else:
+            raise Error(f"{name}: found {table!r}; allowed a table, as a dict")
+    return tables
+
+
 def scenario_of(given: Any) -> Scenario:
     """A scenario from whatever stands for one: itself, a dict, the name of a file."""
     if isinstance(given, Scenario):
         return given
+    text, name = text_of(given)
+    return Scenario.from_text(text, name)
+
+
+def text_of(given: Any) -> tuple[str, str]:
+    """The TOML text of whatever stands for a scenario, unchecked, and the name that stands in messages."""
+    if isinstance(given, Scenario):
+        return str(given), given._name
     if isinstance(given, Mapping):
-        return Scenario(given)
+        return _core.scenario_text(tables_of(given)), "scenario"
     if isinstance(given, (str, os.PathLike)):
-        return Scenario.load(given)
+        return _core.read_file(os.fspath(given)), os.fspath(given)
     raise TypeError(f"found {type(given).__name__}; allowed a Scenario, a dict of tables, or the name of a TOML file")

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._digits import decimals
 from ._errors import Error
 from ._problem import Problem, _list
 from ._scenario import Scenario
@@ -20,21 +21,28 @@ Numbers = npt.NDArray[np.float64]
 class Trajectory:
     """States of a motion: t (n,), q (n, d), p (n, d), energy (n,), step (n,).
 
-    The arrays are read-only views of memory that C++ has filled; they keep it alive.
+    The arrays are read-only views of memory that C++ has filled; they keep it alive. With digits=True t, q, p, energy
+    are arrays of decimal.Decimal (dtype object).
     """
 
-    def __init__(self, table: Any, coordinates: Sequence[str], momenta: Sequence[str]) -> None:
+    def __init__(self, table: Any, coordinates: Sequence[str], momenta: Sequence[str], digits: bool = False) -> None:
         self._table, self.coordinates, self.momenta = table, list(coordinates), list(momenta)
-        self.t: Numbers = table["t"]
-        self.q: Numbers = table["q"]
-        self.p: Numbers = table["p"]
-        self.energy: Numbers = table["energy"]
-        self.step: npt.NDArray[np.int64] = table["step"]
+        read: Callable[[str], npt.NDArray[Any]] = (lambda name: decimals(table, name)) if digits else table.__getitem__
+        self.t: npt.NDArray[Any] = read("t")
+        self.q: npt.NDArray[Any] = read("q")
+        self.p: npt.NDArray[Any] = read("p")
+        self.energy: npt.NDArray[Any] = read("energy")
+
+    @property
+    def step(self) -> npt.NDArray[np.int64]:
+        """Steps since the start, of shape (n,)."""
+        steps: npt.NDArray[np.int64] = self._table["step"]
+        return steps
 
     @property
     def columns(self) -> list[str]:
         """The names that [] takes."""
-        return ["t", *self.coordinates, *self.momenta, "energy", "step"]
+        return ["t", *self.coordinates, *self.momenta, "energy", *(["step"] if "step" in self._table else [])]
 
     def __getitem__(self, name: str) -> Any:
         if name in self.coordinates:
@@ -50,7 +58,7 @@ class Trajectory:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with a column for each name."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         return pandas.DataFrame({name: self[name] for name in self.columns})
 
@@ -146,7 +154,8 @@ class Simulation:
             raise Error(f"t: found {t!r} behind t = {self.t!r}; allowed later times; reverse() turns the motion round")
         self.advance(whole)
 
-    def sample(self, *, steps: int | None = None, every: int = 1, at: npt.ArrayLike | None = None) -> Trajectory:
+    def sample(self, *, steps: int | None = None, every: int = 1, at: npt.ArrayLike | None = None,
+               digits: bool = False) -> Trajectory:
         """Advances and keeps states.
 
         Parameters
@@ -157,15 +166,25 @@ class Simulation:
         at : array_like of times
             In place of steps: the states at these times, by partial steps of the method; the bits of the trajectory
             do not change.
+        digits : bool
+            Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double; `at`
+            may then be texts.
+
+        Raises
+        ------
+        Error
+            With digits=True in double.
+        StepFailed, KeyboardInterrupt
+            As advance().
         """
         if (steps is None) == (at is None):
             raise TypeError("sample takes steps= or at=")
         if at is not None:
             times = [each if isinstance(each, str) else repr(float(each)) for each in np.ravel(np.asarray(at)).tolist()]
-            table = self._core.sample_at(times)
+            table = self._core.sample_at(times, digits)
         else:
-            table = self._core.sample(steps, every)
-        return Trajectory(table, self.coordinates, self.momenta)
+            table = self._core.sample(steps, every, digits)
+        return Trajectory(table, self.coordinates, self.momenta, digits)
 
     @property
     def step(self) -> int:
@@ -180,12 +199,14 @@ class Simulation:
     @property
     def q(self) -> Numbers:
         """Coordinates, a copy of shape (d,)."""
-        return self._core.q
+        q: Numbers = self._core.q
+        return q
 
     @property
     def p(self) -> Numbers:
         """Canonical momenta, a copy of shape (d,)."""
-        return self._core.p
+        p: Numbers = self._core.p
+        return p
 
     @property
     def energy(self) -> float:

@@ -10,9 +10,9 @@ from typing import Any, Mapping
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _html
 from ._errors import Error
-from ._run import Progress, States, _progress
+from ._run import Progress, progress_of_both
 from ._scenario import scenario_of
 
 
@@ -47,7 +47,7 @@ class Sweep:
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with a row for each member."""
-        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+        import pandas
 
         columns: dict[str, Any] = {}
         for name in self.columns:
@@ -57,6 +57,66 @@ class Sweep:
             else:
                 columns.update({f"{name}{i + 1}": values[:, i] for i in range(values.shape[1])})
         return pandas.DataFrame(columns)
+
+    def plot(self, ax: Any = None, *, colour: str = "energy/max_error") -> Any:
+        """Draws a column over the key that was varied, or in colours over two keys.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+            Default: new ones.
+        colour : str
+            A column of numbers, such as "observables/lyapunov1".
+
+        Returns
+        -------
+        The axes.
+
+        Raises
+        ------
+        Error
+            Where the column is none of numbers, or more than two keys were varied by themselves.
+        """
+        keys = [name for name in self.columns if name.startswith("varied/") and self._is_number(name)]
+        if len(keys) not in (1, 2):
+            raise Error(f"plot: found {len(keys)} varied keys of numbers; allowed one or two")
+        if colour not in self.columns or not self._is_number(colour):
+            numbers = [name for name in self.columns if self._is_number(name) and name not in keys]
+            raise Error(f"colour: found {colour!r}; allowed {', '.join(numbers)}")
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            _, ax = plt.subplots()
+        values = np.where(np.array(self.status) == "done", self[colour], np.nan)
+        x = self[keys[0]]
+        ax.set_xlabel(keys[0].removeprefix("varied/"))
+        if len(keys) == 1:
+            order = np.argsort(x, kind="stable")
+            ax.plot(x[order], values[order], ".-")
+            ax.set_ylabel(colour)
+            return ax
+        y = self[keys[1]]
+        ax.set_ylabel(keys[1].removeprefix("varied/"))
+        columns, rows = np.unique(x), np.unique(y)
+        if len(columns) * len(rows) == len(values):  # a Cartesian product
+            grid = values[np.lexsort((x, y))].reshape(len(rows), len(columns))
+            drawn = ax.pcolormesh(columns, rows, grid, shading="nearest")
+        else:
+            drawn = ax.scatter(x, y, c=values, s=4)
+        ax.figure.colorbar(drawn, ax=ax, label=colour)
+        return ax
+
+    def _is_number(self, name: str) -> bool:
+        values = self[name]
+        return isinstance(values, np.ndarray) and values.ndim == 1
+
+    def _repr_html_(self) -> str:
+        shown = 20
+        names = [name for name in self.columns if name.startswith("varied/")]
+        names += [name for name in ("member/status", "energy/max_error") if name in self.columns]
+        rows = ([self[name][k] for name in names] for k in range(min(len(self), shown)))
+        more = f"<p>... {len(self) - shown} more</p>" if len(self) > shown else ""
+        return _html.table(names, rows) + more
 
     def __repr__(self) -> str:
         return f"<hamflow.Sweep {len(self)} members, {self.summary['status']}>"
@@ -92,6 +152,10 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
         Default: all cores. The bits do not depend on it.
     out : path, optional
         The folder that the sweep leaves.
+    existing : "error", "replace" or "resume"
+        What to do with a folder that exists. "resume" goes on with the members that are not finished.
+    progress : bool or callable(done, total), optional
+        Of steps of all members. Default: on a terminal, for what takes longer than 2 s.
     client : dask.distributed.Client, optional
         Runs the members on the workers of a Dask cluster, where `import hamflow` has to give the same version. The
         bits do not depend on it, and `threads` is not used.
@@ -101,13 +165,21 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     Rejection, FileError
     KeyboardInterrupt, Error
         The attribute `partial` is the sweep so far: after Ctrl-C, and where workers of the cluster failed.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 100})
+    >>> ens = hf.sweep(s, {"problem.initial.q[0]": [0.5, 1.0, 1.5]})
+    >>> ens["final/q"].shape, ens.status
+    ((3, 1), ['done', 'done', 'done'])
     """
     wanted = scenario_of(scenario)
     if client is not None:
         return _on_cluster(client, str(wanted), [_varied(key, values) for key, values in varied.items()], zip, out,
                            existing, progress)
     found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
-                        Path(out) if out is not None else "", existing, _told(progress))
+                        Path(out) if out is not None else "", existing, progress_of_both(progress))
     result = Sweep(found)
     if found["interrupted"]:
         error: BaseException = KeyboardInterrupt()
@@ -123,13 +195,13 @@ def _shard(text: str, varied: list[str], zip: bool, index: int, count: int) -> b
 
 def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any,  # noqa: A002
                 existing: str, progress: bool | Progress | None) -> Sweep:
-    from distributed import as_completed  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    from distributed import as_completed
 
     gathered = _core.GatheredSweep(text, varied, zip, Path(out) if out is not None else "", existing)
     members = gathered.members
     # Several parts for each thread: a part of a worker that dies is run again on another one.
     count = max(1, min(members, 4 * sum(client.nthreads().values())))
-    told = _told(progress)
+    told = progress_of_both(progress)
     futures = client.map(_shard, [text] * count, [varied] * count, [zip] * count, range(count),
                          [count] * count, pure=False)
     trouble: BaseException | None = None
@@ -150,22 +222,6 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
         trouble.__cause__ = cause
     trouble.partial = result  # type: ignore[union-attr]
     raise trouble
-
-
-def _told(progress: bool | Progress | None) -> Any:
-    if callable(progress):
-        return progress
-    if progress is False:
-        return None
-    told: list[Any] = []
-
-    def of_both(steps: int, total: int) -> None:
-        if not told:
-            told.append(_progress(progress, total))
-        if told[0] is not None:
-            told[0](steps)
-
-    return of_both
 
 
 def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, *, dt: float | str, steps: int,
@@ -190,6 +246,13 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
     ------
     Error
         Where a member fails, naming the first.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> q, p = hf.propagate("pendulum", "stv4", [[0.5], [1.0]], [[0], [0]], dt=0.1, steps=100)
+    >>> q.shape
+    (2, 1)
     """
     from ._problem import Problem
 

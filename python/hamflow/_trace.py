@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from typing import Any, Callable, NoReturn
 
 import numpy as np
 
@@ -66,24 +66,24 @@ class Symbol:
     def __abs__(self) -> Symbol:
         return Symbol(f"abs({self.text})")
 
-    def _refuse(self, what: str) -> Any:
+    def _refuse(self, what: str) -> NoReturn:
         raise TypeError(_REFUSED.format(what, "a Hamiltonian has no branches; abs() is allowed"))
 
     def __bool__(self) -> bool:
-        return self._refuse("a comparison or truth value")
+        self._refuse("a comparison or truth value")
 
     def __lt__(self, other: Any) -> bool:
-        return self._refuse("a comparison")
+        self._refuse("a comparison")
 
     __le__ = __gt__ = __ge__ = __lt__
-    __eq__ = __lt__  # type: ignore[assignment]
-    __ne__ = __lt__  # type: ignore[assignment]
+    __eq__ = __lt__
+    __ne__ = __lt__
     __hash__ = None  # type: ignore[assignment]
 
     def __float__(self) -> float:
         raise TypeError(_REFUSED.format("float()", "use hf.sin, hf.sqrt, ... or NumPy's functions, not those of math"))
 
-    __int__ = __complex__ = __index__ = __float__  # type: ignore[assignment]
+    __int__ = __complex__ = __index__ = __float__
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **more: Any) -> Any:
         form = _FORMS.get(ufunc.__name__)

@@ -11,6 +11,8 @@ void bind_lists(pybind11::module_& m);
 void bind_problem(pybind11::module_& m);
 void bind_scenario(pybind11::module_& m);
 void bind_run(pybind11::module_& m);
+void bind_compare(pybind11::module_& m);
+void bind_verify(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweep(pybind11::module_& m);
 void bind_certify(pybind11::module_& m);

@@ -2,7 +2,9 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "hamflow/formula/tex.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/workflow/catalogue_text.hpp"
 
 namespace py = pybind11;
 
@@ -47,6 +49,16 @@ void bind_lists(py::module_& m) {
     add(formula_example().info);
     return all;
   });
+  m.def("show", [](const std::string& name) {
+    const auto found = catalogue_text(name);
+    if (!found) throw Error(not_in_catalogue(name));
+    return py::make_tuple(found->text, found->formulas);
+  });
+  m.def("show_scenario", [](const Scenario& scenario) {
+    const CatalogueText found = description_of(scenario);
+    return py::make_tuple(found.text, found.formulas);
+  });
+  m.def("tex", &tex_of);
 }
 
 }  // namespace hamflow::python

@@ -24,6 +24,7 @@ void bind_scenario(py::module_& m) {
       .def_readonly("steps", &Scenario::steps)
       .def_readonly("dt", &Scenario::dt)
       .def_readonly("notes", &Scenario::notes)
+      .def_readonly("figures", &Scenario::figures)
       .def_property_readonly("problem", [](const Scenario& s) { return s.request.problem; })
       .def_property_readonly("method", [](const Scenario& s) { return describe(s.request.method).name; })
       .def_property_readonly("arithmetic", [](const Scenario& s) { return s.request.arithmetic; })
@@ -37,8 +38,14 @@ void bind_scenario(py::module_& m) {
       });
   m.def("scenario_text", [](const py::dict& tree) { return scenario_text(table_of(tree)); });
   m.def("value_text", [](const py::handle& value) {
-    const std::string text = scenario_text(Value::Table{{"value", value_of(value, "value")}});
-    return text.substr(text.find('=') + 2, text.find_last_not_of('\n') - text.find('=') - 1);
+    // In a list a table is written within its line.
+    const bool is_table = py::isinstance<py::dict>(value);
+    Value written = value_of(value, "value");
+    if (is_table) written = Value::List{std::move(written)};
+    const std::string text = scenario_text(Value::Table{{"value", std::move(written)}});
+    const std::size_t first = text.find('=') + 2;
+    const std::size_t last = text.find_last_not_of('\n');
+    return is_table ? text.substr(first + 1, last - first - 1) : text.substr(first, last - first + 1);
   });
   m.def("read_file", [](const std::string& file) { return scenario_text(file); });
 }

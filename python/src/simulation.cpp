@@ -11,6 +11,7 @@
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/digits.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "signals.hpp"
@@ -25,14 +26,28 @@ namespace {
 /// Fills a table with the states of some steps, or of some times.
 class Sampler final : public Observer {
  public:
-  Sampler(const Scenario& scenario, std::int64_t first, std::int64_t every, std::int64_t last)
-      : first_(first), every_(every), last_(last) {
+  /// @param digits whether columns digits/... of texts are kept beside those of doubles
+  Sampler(const Scenario& scenario, std::int64_t first, std::int64_t every, std::int64_t last, bool digits)
+      : first_(first), every_(every), last_(last), digits_(digits) {
+    const std::size_t longest = longest_digits(scenario.request.arithmetic);
+    if (digits && longest == 0) {
+      throw Error("digits: found True in " + scenario.request.arithmetic +
+                  " arithmetic, whose t, q, p, energy have all digits as doubles; allowed beyond double");
+    }
     const std::size_t n = scenario.start_q.size();
     table_.add({.name = "q", .width = n, .scalar = false, .meaning = "coordinates"});
     table_.add({.name = "p", .width = n, .scalar = false, .meaning = "canonical momenta"});
     table_.add({.name = "energy", .meaning = "H(q, p)"});
     table_.add({.name = "step", .type = ValueType::integer, .meaning = "steps since the start"});
     table_.add({.name = "t", .meaning = "time"});
+    for (const char* name : {"q", "p", "energy", "t"}) {
+      if (!digits) break;
+      ColumnInfo info = table_[name].info();
+      info.name = std::string("digits/") + name;
+      info.type = ValueType::text;
+      info.text_size = longest;
+      table_.add(std::move(info));
+    }
     for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>((last - first) / every + 2));
   }
   std::int64_t next_due(std::int64_t step) const override {
@@ -47,6 +62,12 @@ class Sampler final : public Observer {
     columns[2].add(frame.energy);
     columns[3].add(frame.step);
     columns[4].add(frame.time);
+    if (digits_) {
+      for (const std::string& x : frame.digits.q) columns[5].add(x);
+      for (const std::string& x : frame.digits.p) columns[6].add(x);
+      columns[7].add(frame.digits.energy);
+      columns[8].add(frame.digits.time);
+    }
     return Verdict::go_on;
   }
   Table take() { return std::move(table_); }
@@ -56,6 +77,7 @@ class Sampler final : public Observer {
   std::int64_t first_;
   std::int64_t every_;
   std::int64_t last_;
+  bool digits_;
 };
 
 /// Calls a function of Python every so many steps.
@@ -156,17 +178,17 @@ class PySimulation {
     if (is_failure(outcome)) raise_failure(*simulation_, outcome);
   }
 
-  std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every) {
+  std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every, bool digits) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
     const std::int64_t first = simulation_->step();
-    Sampler sampler(*scenario_, first, every, first + std::max<std::int64_t>(steps, 0));
+    Sampler sampler(*scenario_, first, every, first + std::max<std::int64_t>(steps, 0), digits);
     advance(steps, &sampler);
     return std::make_shared<Table>(sampler.take());
   }
 
   /// The states at given times, by partial steps; the simulation ends at the last step before the last time.
-  std::shared_ptr<Table> sample_at(const std::vector<std::string>& times) {
-    Sampler sampler(*scenario_, 0, 1, static_cast<std::int64_t>(times.size()));
+  std::shared_ptr<Table> sample_at(const std::vector<std::string>& times, bool digits) {
+    Sampler sampler(*scenario_, 0, 1, static_cast<std::int64_t>(times.size()), digits);
     const double dt = scenario_->dt;
     for (const std::string& text : times) {
       const double t = evaluate_number<double>(text);

@@ -8,6 +8,7 @@
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
 #include "signals.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -17,13 +18,11 @@ namespace {
 
 /// A sweep that has been checked, with its folder. To be called without the lock.
 std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const std::filesystem::path& folder,
-                                             const std::string& existing) {
+                                             Existing existing) {
   auto sweep = std::make_unique<ScenarioSweep>(request);
   if (!sweep->complaints().empty()) throw Rejection(sweep->complaints());
   if (folder.empty()) return sweep;
-  auto wrong = sweep->keep_in(folder, existing == "replace"  ? Existing::replace
-                                      : existing == "resume" ? Existing::resume
-                                                             : Existing::refuse);
+  auto wrong = sweep->keep_in(folder, existing);
   if (!wrong.empty()) throw Rejection(std::move(wrong));
   return sweep;
 }
@@ -50,13 +49,14 @@ py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, bool in
 py::dict sweep_in_python(const std::string& text, const std::vector<std::string>& varied, bool zip, int threads,
                          const std::filesystem::path& folder, const std::string& existing,
                          const std::function<void(std::int64_t, std::int64_t)>& progress) {
+  const Existing what_to_do = existing_named(existing);
   std::unique_ptr<ScenarioSweep> sweep;
   SweepReport report;
   bool interrupted = false;
   {
     const py::gil_scoped_release unlocked;
     sweep = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads}, folder,
-                          existing);
+                          what_to_do);
     const std::int64_t total = sweep->total_steps();
     Interrupts asked([&](std::int64_t steps) {
       if (progress) progress(steps, total);
@@ -76,7 +76,7 @@ py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& v
     const py::gil_scoped_release unlocked;
     const auto sweep = checked_sweep(
         {.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = 1, .shard = {index, count}}, {},
-        "");
+        Existing::refuse);
     (void)sweep->run();
     finished = sweep->finished_members();
   }
@@ -88,8 +88,9 @@ class GatheredSweep {
  public:
   GatheredSweep(const std::string& text, const std::vector<std::string>& varied, bool zip,
                 const std::filesystem::path& folder, const std::string& existing) {
+    const Existing what_to_do = existing_named(existing);
     const py::gil_scoped_release unlocked;
-    sweep_ = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip}, folder, existing);
+    sweep_ = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip}, folder, what_to_do);
   }
   void take(std::string_view finished) {
     const py::gil_scoped_release unlocked;

@@ -52,4 +52,11 @@ Value::Table table_of(const py::dict& dict, const std::string& path) {
   return table;
 }
 
+Existing existing_named(const std::string& name, bool can_resume) {
+  if (name == "error") return Existing::refuse;
+  if (name == "replace") return Existing::replace;
+  if (name == "resume" && can_resume) return Existing::resume;
+  throw Error("existing: found \"" + name + "\"; allowed \"error\", \"replace\"" + (can_resume ? ", \"resume\"" : ""));
+}
+
 }  // namespace hamflow::python

@@ -7,6 +7,7 @@
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
 #include "constrained_problems.hpp"
 #include "gas_entry.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/fitting_methods.hpp"
@@ -56,7 +57,7 @@ std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
     throw Error("found the problem '" + name + "'; allowed " + joined(names) + suggestion(name, names));
   }
   const std::string wanted = joined(variant, [](const auto& choice) { return choice.first + " = " + choice.second; });
-  throw Error("problem '" + name + "' has no variant with " + wanted + " (hamflow show " + name + ")");
+  throw Error("problem '" + name + "' has no variant with " + wanted + " (" + command_name("show " + name) + ")");
 }
 
 std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,
@@ -125,7 +126,8 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     if (!advice(other).purpose.empty()) first.push_back(entry.name);
   }
   const bool many = accepted.size() > 12;
-  const std::string all = many ? joined(first) + " and others (hamflow list methods --all)" : joined(accepted);
+  const std::string all =
+      many ? joined(first) + " and others (" + command_name("list methods --all") + ")" : joined(accepted);
   const auto needs = [](const std::string& name) {
     const MethodEntry& method = find_method(name);
     return method.family->needs(method.index);

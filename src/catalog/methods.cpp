@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/fitting_methods.hpp"
@@ -66,7 +67,8 @@ const MethodEntry& find_method(const std::string& name) {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   const std::vector<std::string> first = first_methods();
   throw Error("found the method '" + name + "'; allowed " + joined(first) + " and " +
-              std::to_string(names.size() - first.size()) + " others (hamflow list methods)" + suggestion(name, names));
+              std::to_string(names.size() - first.size()) + " others (" + command_name("list methods") + ")" +
+              suggestion(name, names));
 }
 
 std::size_t family_number(const MethodEntry& method) {

@@ -5,6 +5,7 @@
 #include "figure_kind.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "particles.hpp"
 #include "terminal.hpp"
@@ -84,8 +85,8 @@ std::string refused_columns(const Figure& figure, const figures::FigureKind& kin
     if (allowed.empty()) {
       std::vector<std::string> others = drawable_figures(facts_of(run));
       std::erase_if(others, [&](const std::string& name) { return figures::find_kind(name)->columns(run).empty(); });
-      return "found --x or --y for \"" + std::string(kind.name) + "\", which draws no columns; allowed for " +
-             joined(others);
+      return "found " + option_name("x") + " or " + option_name("y") + " for \"" + std::string(kind.name) +
+             "\", which draws no columns; allowed for " + joined(others);
     }
     for (const std::string& name : asked) {
       if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
@@ -104,7 +105,8 @@ std::string refused_times(const Figure& figure, const figures::FigureKind& kind)
     for (const figures::FigureKind* other : figures::all_kinds()) {
       if (other->takes_times) others.emplace_back(other->name);
     }
-    return "found --at for \"" + std::string(kind.name) + "\", which draws all samples; allowed for " + joined(others);
+    return "found " + option_name("at") + " for \"" + std::string(kind.name) +
+           "\", which draws all samples; allowed for " + joined(others);
   }
   constexpr std::size_t most_times = 12;
   if (asked.size() > most_times) {

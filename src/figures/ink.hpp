@@ -15,7 +15,4 @@ std::vector<std::string> data_lines(const Panel& panel, const Series& series);
 /// What stands behind the name of the data in a plot command, once for each layer that is drawn.
 std::vector<std::string> styles(const Series& series);
 
-/// The colour of a series, its own or that of its ink.
-std::string colour_of(const Series& series);
-
 }  // namespace hamflow::figures

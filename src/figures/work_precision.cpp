@@ -152,9 +152,7 @@ void note_what_is_missing(Page& page, const WorkPrecision& data) {
 }
 }  // namespace
 
-void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file) {
-  const std::string refused = refused_figure_file(file);
-  if (!refused.empty()) throw Error(refused);
+figures::Page work_precision_page(const WorkPrecision& data) {
   std::vector<WorkCurve> curves = data.curves;
   std::erase_if(curves, [](const WorkCurve& curve) { return !drawable(curve); });
   if (curves.empty()) throw Error("there is no error to draw: every run failed, or is exact");
@@ -172,7 +170,13 @@ void write_work_precision(const WorkPrecision& data, const std::filesystem::path
   page.panels.push_back(panel_of(entries, evaluations, energy_error, 1));
   if (floor_shown) page.notes.push_back("dashed grey: uncertainty of the reference, " + short_number(data.floor));
   note_what_is_missing(page, data);
-  draw(page, file);
+  return page;
+}
+
+void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file) {
+  const std::string refused = refused_figure_file(file);
+  if (!refused.empty()) throw Error(refused);
+  draw(work_precision_page(data), file);
 }
 
 }  // namespace hamflow

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/figures/page.hpp"
+
 namespace hamflow {
 
 /// One method; one entry per step length, NaN where a run failed.
@@ -25,6 +27,8 @@ struct WorkPrecision {
   double size = 1;   // of the motion, its largest coordinate or momentum
 };
 
+/// @throws Error where there is no error to draw
+figures::Page work_precision_page(const WorkPrecision& data);
 /// Writes svg, pdf or png by the extension of `file`.
 /// @throws Error when the extension or the data do not fit   @throws FileError when gnuplot or the file fails
 void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file);

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {
@@ -31,8 +32,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(text.data()), text.size());
   const auto damaged = [&](const std::string& how) {
-    return FileError("the checkpoint " + file.string() + " " + how +
-                     "; give --out another folder, or --force to begin anew");
+    return FileError("the checkpoint " + file.string() + " " + how + advice_to_begin_anew());
   };
   if (bytes.size() < 2 * sizeof(std::uint64_t) + sum_bytes) throw damaged("is damaged: it is too short");
   std::uint64_t found_sum = 0;

@@ -50,6 +50,7 @@ struct StoredRunOptions {
   /// Above it q and p are left out of samples, and description.dimension says how many there are.
   std::size_t most_coordinates = std::numeric_limits<std::size_t>::max();
   bool digits = false;  // also the columns digits/... of samples, where the run has them
+  bool counts = false;  // also step and the numbers of evaluations
   bool events = false;  // also the tables of events, and of bounces more than q and t
 };
 

@@ -22,6 +22,14 @@ inline constexpr NamedColumn diagnostic_columns[] = {
     {"solver/determinant_tangent", "of the tangent matrix of the last step"},
     {"solver/condition_inverse_mass", "of the inverse mass matrix at the last step"}};
 
+/// Of every run: whole numbers.
+inline constexpr NamedColumn count_columns[] = {{"step", "steps since the start"},
+                                                {"solver/force", "force evaluations since the start"},
+                                                {"solver/gradient", "evaluations of the gradient of H since the start"},
+                                                {"solver/hessian", "evaluations of second derivatives since the start"},
+                                                {"solver/linear_solves", "linear systems solved since the start"},
+                                                {"events/halved", "steps replaced by two half steps since the start"}};
+
 /// H - H0 over the steps from one sample to the next, both included.
 inline constexpr NamedColumn energy_range_columns[] = {
     {"energy_error_min", "least H - H0 at the end of a step since the sample before, both samples included"},

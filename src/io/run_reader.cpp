@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "hamflow/core/option_names.hpp"
 #include "hdf5_text.hpp"
 #include "run_file.hpp"
 
@@ -209,6 +210,9 @@ StoredRun read_run(const std::filesystem::path& path, const StoredRunOptions& op
   for (const std::string& name : names_of_group("invariants")) {
     add_other_column(file, "invariants/" + name, "invariants/" + name, count, run);
   }
+  for (const auto& [name, meaning] : count_columns) {
+    if (options.counts && has_object(file, name)) samples.add(integers_column(name, column(file, name).numbers()));
+  }
   if (options.digits) add_digits(file, width, samples);
   samples.add(t);
   cut_to_equal_length(samples);
@@ -246,8 +250,9 @@ auto naming(const std::filesystem::path& path, const Read& read) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown)) {
     const bool of_sweep = std::filesystem::exists(path.parent_path() / "sweep.h5", unknown) && path.has_parent_path();
-    throw FileError(path.string() + " cannot be read: there is no such file" +
-                    (of_sweep ? "; this is the folder of a sweep: hamflow sweep --figure draws it" : ""));
+    throw FileError(
+        path.string() + " cannot be read: there is no such file" +
+        (of_sweep ? "; this is the folder of a sweep: " + command_name("sweep --figure") + " draws it" : ""));
   }
   try {
     return read(path);

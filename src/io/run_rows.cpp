@@ -4,12 +4,6 @@ namespace hamflow {
 
 namespace {
 
-constexpr NamedColumn count_columns[] = {{"step", "steps since the start"},
-                                         {"solver/force", "force evaluations since the start"},
-                                         {"solver/gradient", "evaluations of the gradient of H since the start"},
-                                         {"solver/hessian", "evaluations of second derivatives since the start"},
-                                         {"solver/linear_solves", "linear systems solved since the start"},
-                                         {"events/halved", "steps replaced by two half steps since the start"}};
 constexpr const char* all_digits = "with all digits: decimal texts that read back to the last bit";
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }

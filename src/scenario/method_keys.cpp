@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "scenario_reader.hpp"
@@ -162,7 +163,7 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
       method.options[key] = table->get(key)->value_exact<std::string>().value_or(setting.text);  // texts without quotes
       continue;
     }
-    const std::pair<std::string, std::string> entry{path + (setting.line > 0 ? "" : " of --set"), why};
+    const std::pair<std::string, std::string> entry{path + (setting.line > 0 ? "" : " of " + option_name("set")), why};
     if (!impl_->methods.contains(entry)) impl_->unused.push_back(entry);
     impl_->methods[entry].push_back(spelled);
   }

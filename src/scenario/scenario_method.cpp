@@ -1,6 +1,7 @@
 // [method]: its name, and the options that its family declares.
 #include <algorithm>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/large_steps.hpp"
@@ -86,7 +87,8 @@ bool ScenarioReader::read_method_name(TomlTable& table) {
   const auto text = table.plain_string(key.name);
   const auto allowed = [&] {
     const std::vector<std::string> first = first_methods();
-    return joined(first) + " and " + std::to_string(key.words.size() - first.size()) + " others (hamflow list methods)";
+    return joined(first) + " and " + std::to_string(key.words.size() - first.size()) + " others (" +
+           command_name("list methods") + ")";
   };
   if (!table.has(key.name)) {
     table.missing(key.name, allowed());

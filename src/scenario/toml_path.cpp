@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "run_keys.hpp"
 #include "toml_depth.hpp"
@@ -207,7 +208,7 @@ std::pair<std::string, std::string> parsed_set(const std::string& set) {
 
 std::pair<std::string, std::string> apply_set(toml::table& root, const std::string& set) {
   const auto [path, text] = parsed_set(set);
-  if (path.empty()) return {set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"};
+  if (path.empty()) return {set, "found no PATH=VALUE; allowed e.g. " + set_option(run_path(run_keys().dt), "0.05")};
   return {path, assign(root, path, *parsed_value(text).get("value"))};
 }
 

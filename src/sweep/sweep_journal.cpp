@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 
 namespace hamflow {
 
@@ -53,9 +54,7 @@ SweepPast read_journal(const std::filesystem::path& file) {
 }
 
 SweepPast journal_in(std::span<const std::byte> left, const std::string& name) {
-  const auto damaged = [&](const std::string& how) {
-    return FileError(name + " " + how + "; give --out another folder, or --force to begin anew");
-  };
+  const auto damaged = [&](const std::string& how) { return FileError(name + " " + how + advice_to_begin_anew()); };
   SweepPast past;
   std::uint64_t found[2] = {};
   if (left.size() < sizeof found) throw damaged("is damaged: it is too short");
@@ -115,8 +114,8 @@ void SweepJournal::append(std::uint64_t member, const FinishedMember& finished) 
   while (!left.empty()) {
     const ssize_t count = write(descriptor_, left.data(), left.size());
     if (count < 0 && errno != EINTR) {
-      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) +
-                      "; the same command with --resume goes on with the members that are not done");
+      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) + "; the same with " +
+                      option_name("resume") + " goes on with the members that are not done");
     }
     if (count > 0) left = left.subspan(static_cast<std::size_t>(count));
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "memory.hpp"
 #include "on_threads.hpp"
@@ -29,7 +30,7 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   const std::size_t members = varied_.members();
   if (const std::string wrong = refused_members(members, coordinates_of_first(reader), available_memory());
       !wrong.empty()) {
-    complaints_.push_back({"", 0, 0, "--vary", wrong});
+    complaints_.push_back({"", 0, 0, option_name("vary"), wrong});
     return;
   }
   rows_.resize(members);

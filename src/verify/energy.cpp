@@ -6,6 +6,7 @@
 #include "drift_class.hpp"
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "measuring_stopped.hpp"
 #include "rounding.hpp"
 
 namespace hamflow {
@@ -88,6 +89,7 @@ double telling_step(const StepMap& map, const Region& region, double unit) {
   const MethodInfo claims = map.claims();
   if (claims.explicit_step || claims.energy_conserving != Conservation::no) return region.step;
   for (int k = 0; k <= 4; ++k) {
+    leave_if_stopped();
     const double h = std::ldexp(region.step, k);
     const double level = short_level(map, region, h) / unit;
     if (!(level < 1)) break;  // no step that long
@@ -101,6 +103,7 @@ double step_exponent(const StepMap& map, const Region& region, double telling, d
   std::vector<double> log_step;
   std::vector<double> log_level;
   for (int k = 2; k >= -3; --k) {
+    leave_if_stopped();
     const double h = std::ldexp(telling, k);
     const double level = short_level(map, region, h) / unit;
     if (!(level < 1)) continue;  // no step that large
@@ -138,6 +141,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   std::vector<std::vector<double>> energies;
   Ended ended;
   for (std::uint64_t k = 0; k < starts; ++k) {
+    leave_if_stopped();
     energies.push_back(watched(map, random_state(region, k), h));
     ended.look(energies.back(), coarse_blocks + 1);
     found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
@@ -155,6 +159,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   const double fine_step = region.step / fine_factor;
   Ended fine_ended;
   for (std::uint64_t k = 0; k < starts / 4; ++k) {  // for a level, a few are enough
+    leave_if_stopped();
     const auto fine = map.energies(random_state(region, k), fine_step, fine_blocks, fine_block_steps);
     fine_ended.look(fine, fine_blocks + 1);
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);

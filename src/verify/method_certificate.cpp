@@ -7,6 +7,7 @@
 
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "measuring_stopped.hpp"
 
 namespace hamflow {
 
@@ -58,6 +59,7 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
   const auto problem_entry = find_problem(region.problem, region.variant);
   const ProblemEntry& problem = *problem_entry;
   if (!problem.accepts(method) || problem.info.invariants.empty()) return;
+  leave_if_stopped();
   const Request request = request_on(region, method, random_state(region, 0));
   const auto simulation = make_simulation(request);
   Frame start;

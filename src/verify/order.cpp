@@ -6,6 +6,7 @@
 
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "measuring_stopped.hpp"
 
 namespace hamflow {
 
@@ -73,6 +74,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   int failed = 0;
   std::int64_t steps = static_cast<std::int64_t>(std::ceil(region.time / (4 * region.step)));
   for (int k = 0; k <= halvings && !masked; ++k, steps *= 2) {
+    leave_if_stopped();
     State<Long> z = start;
     const Long h = time / static_cast<Long>(steps);
     ++tried;

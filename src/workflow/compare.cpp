@@ -159,7 +159,9 @@ ComparisonReport compare_methods(const ComparisonRequest& request,
   return report;
 }
 
-void draw_comparison(const Comparison& c, const fs::path& file) {
+namespace {
+
+WorkPrecision work_precision_of(const Comparison& c) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   WorkPrecision data;
   data.title = fmt::format("{}, t = {}, {} arithmetic", c.problem, shortest(c.t_end), c.arithmetic);
@@ -175,7 +177,17 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
     curve.error.push_back(p.done() ? p.error.value : nothing);
     curve.energy_error.push_back(p.done() ? p.max_energy_error.value : nothing);
   }
-  write_work_precision(data, file);
+  return data;
+}
+
+}  // namespace
+
+figures::Page comparison_page(const Comparison& comparison) {
+  return work_precision_page(work_precision_of(comparison));
+}
+
+void draw_comparison(const Comparison& comparison, const fs::path& file) {
+  write_work_precision(work_precision_of(comparison), file);
 }
 
 std::string refused_comparison_figure(const fs::path& file) { return refused_figure_file(file); }

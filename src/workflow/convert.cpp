@@ -8,9 +8,11 @@
 
 #include "converted_text.hpp"
 #include "figure_kinds.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/digits.hpp"
 #include "json_text.hpp"
+#include "method_keys.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
 
@@ -125,7 +127,8 @@ ConvertedScenario converted_scenario(const Scenario& scenario, const std::string
   const CanonicalState start = converted_start(scenario, to);
   const std::string why_not = refused_method(scenario, to);
   if (!why_not.empty() && sets.empty()) {
-    throw Error("in " + to + " coordinates " + why_not + "; give one of them with --set method.name=...");
+    throw Error("in " + to + " coordinates " + why_not + "; give one of them with " +
+                set_option("method." + method_name_key().name, "..."));
   }
   const Scenario converted =
       accepted(read_scenario_text(converted_text(scenario, to, start), "the converted scenario", sets));

@@ -22,6 +22,117 @@ namespace hamflow {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr double most_certain_turn = 2;  // radians from one sample to the next
+
+/// The samples of a run in other coordinates of its problem.
+class SampleConversion {
+ public:
+  SampleConversion(const Scenario& scenario, const Table& given, const std::string& to)
+      : scenario_(scenario), given_(given), target_(in_coordinates(scenario.problem, to)) {}
+
+  ConvertedSamples all() const {
+    ConvertedSamples found;
+    found.names = state_names(*target_, scenario_.request.parameters, target_->info.coordinates.size());
+    const std::size_t size = target_->info.coordinates.size();
+    const auto list = [&](const char* name, const std::vector<std::string>& parts, const char* meaning) {
+      return ColumnInfo{.name = name, .width = size, .scalar = false, .parts = parts, .meaning = meaning};
+    };
+    const auto digits_of = [&](ColumnInfo info) {
+      info.name = "digits/" + info.name;
+      info.type = ValueType::text;
+      info.text_size = longest_digits(scenario_.request.arithmetic);
+      return Column(info);
+    };
+    const ColumnInfo of_q = list("q", found.names.q, "coordinates, converted");
+    const ColumnInfo of_p = list("p", found.names.p, "canonical momenta, converted");
+    Column q(of_q);
+    Column p(of_p);
+    Column q_digits = digits_of(of_q);
+    Column p_digits = digits_of(of_p);
+    StateConverter convert(scenario_.problem, target_, scenario_.request.parameters);
+    for (std::size_t k = 0; k < given_.rows(); ++k) {
+      try {
+        CanonicalState state = convert({given_["q"].row(k), given_["p"].row(k)});
+        if (has_digits()) {
+          const DigitState digits =
+              convert_digits(state, {given_["digits/q"].row_of_texts(k), given_["digits/p"].row_of_texts(k)});
+          for (const std::string& x : digits.q) q_digits.add(x);
+          for (const std::string& x : digits.p) p_digits.add(x);
+        }
+        for (const double x : state.q) q.add(x);
+        for (const double x : state.p) p.add(x);
+      } catch (const Error& error) {
+        throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(given_["t"].numbers()[k]), error.what()));
+      }
+    }
+    found.table.add(std::move(q));
+    found.table.add(std::move(p));
+    if (has_digits()) {
+      found.table.add(std::move(q_digits));
+      found.table.add(std::move(p_digits));
+      for (const auto& [name, meaning] : {std::pair{"energy", "H(q, p)"}, std::pair{"t", "time"}}) {
+        Column column = digits_of({.name = name, .parts = {name}, .meaning = meaning});
+        for (const std::string& x : given_[std::string("digits/") + name].texts()) column.add(x);
+        found.table.add(std::move(column));
+      }
+    }
+    found.note = note_of_turns(convert, found.table);
+    return found;
+  }
+
+ private:
+  bool has_digits() const { return given_.find("digits/t") != nullptr; }
+  /// Where the samples may show too few turns.
+  std::string note_of_turns(const StateConverter& convert, const Table& states) const {
+    const double largest = std::max(convert.largest_turn(), fastest_turn(convert.turning(), states));
+    if (!(largest > most_certain_turn)) return {};
+    return fmt::format(
+        "{} changes by up to {:.3g} from one sample to the next; where that is more than half a turn, turns are "
+        "missing",
+        joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; }), largest);
+  }
+
+  /// In the run's arithmetic, with the whole turns that the doubles have been given. The doubles become those of the
+  /// digits.
+  DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
+    DigitState state = in_chart_of(*target_, *without_own_walls(scenario_.problem), scenario_.request.parameters,
+                                   scenario_.request.arithmetic, given);
+    for (std::size_t i = 0; i < state.q.size(); ++i) {
+      const auto& angles = target_->info.angles;
+      if (std::find(angles.begin(), angles.end(), target_->info.coordinates[i]) != angles.end()) {
+        const double missing = in_double.q[i] - evaluate_number<double>(state.q[i]);
+        state.q[i] = turned(state.q[i], std::llround(missing / (2 * pi_value<double>())), scenario_.request.arithmetic);
+      }
+      in_double.q[i] = evaluate_number<double>(state.q[i]);
+      in_double.p[i] = evaluate_number<double>(state.p[i]);
+    }
+    return state;
+  }
+  /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
+  double fastest_turn(const std::vector<std::size_t>& angles, const Table& states) const {
+    double most = 0;
+    const std::span<const double> t = given_["t"].numbers();
+    for (std::size_t k = 0; k + 1 < t.size() && !angles.empty(); ++k) {
+      const std::vector<double> rates =
+          target_->gradient(scenario_.request.parameters, states["q"].row(k), states["p"].row(k)).by_p;
+      for (const std::size_t i : angles) most = std::max(most, std::abs(rates[i] * (t[k + 1] - t[k])));
+    }
+    return most;
+  }
+
+  const Scenario& scenario_;
+  const Table& given_;
+  std::shared_ptr<const ProblemEntry> target_;  // the problem in the coordinates `to`
+};
+
+}  // namespace
+
+ConvertedSamples converted_samples(const Scenario& scenario, const Table& samples, const std::string& to) {
+  return SampleConversion(scenario, samples, to).all();
+}
+
 class ConvertedRun::Impl {
  public:
   Impl(const fs::path& file, const std::string& to)
@@ -38,22 +149,22 @@ class ConvertedRun::Impl {
     check_states(scenario(), run_.description, file);
     target_ = in_coordinates(scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
-    names_ = state_names(*target_, scenario().request.parameters, target_->info.coordinates.size());
-    convert_all();
+    states_ = converted_samples(scenario(), given_, to);
   }
 
   std::string csv() const {
-    std::string text = fmt::format("t,{},{},energy\n", fmt::join(names_.q, ","), fmt::join(names_.p, ","));
+    std::string text =
+        fmt::format("t,{},{},energy\n", fmt::join(states_.names.q, ","), fmt::join(states_.names.p, ","));
     for (std::size_t k = 0; k < given_.rows(); ++k) {
       if (has_digits()) {
         text += fmt::format("{},{},{},{}\n", given_["digits/t"].text(k),
-                            fmt::join(states_["digits/q"].row_of_texts(k), ","),
-                            fmt::join(states_["digits/p"].row_of_texts(k), ","), given_["digits/energy"].text(k));
+                            fmt::join(states_.table["digits/q"].row_of_texts(k), ","),
+                            fmt::join(states_.table["digits/p"].row_of_texts(k), ","), given_["digits/energy"].text(k));
         continue;
       }
       text += fmt::format("{:.17g}", given_["t"].numbers()[k]);
       for (const char* name : {"q", "p"}) {
-        for (const double x : states_[name].row(k)) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
+        for (const double x : states_.table[name].row(k)) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
       }
       text += fmt::format(",{:.17g}\n", without_sign_of_nan(given_["energy"].numbers()[k]));
     }
@@ -65,9 +176,9 @@ class ConvertedRun::Impl {
       nlohmann::ordered_json rows = nlohmann::ordered_json::array();
       for (std::size_t k = 0; k < given_.rows(); ++k) {
         if (has_digits()) {
-          rows.push_back(states_["digits/" + name].row_of_texts(k));
+          rows.push_back(states_.table["digits/" + name].row_of_texts(k));
         } else {
-          rows.push_back(states_[name].row(k));
+          rows.push_back(states_.table[name].row(k));
         }
       }
       return rows;
@@ -106,7 +217,8 @@ class ConvertedRun::Impl {
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
     const LeftOut left_out = copy_run_file(
-        file_, target, {.scenario = text, .coordinates = names_.q, .momenta = names_.p, .table = states_});
+        file_, target,
+        {.scenario = text, .coordinates = states_.names.q, .momenta = states_.names.p, .table = states_.table});
     if (!left_out.tables.empty()) {
       note += fmt::format("{}not in {}: {}, states of the run in {} coordinates", note.empty() ? "" : "; ",
                           target.string(), fmt::join(left_out.tables, ", "), from_);
@@ -117,8 +229,7 @@ class ConvertedRun::Impl {
     }
     return note;
   }
-  double turn() const { return turn_; }
-  const std::string& turning() const { return turning_; }
+  const std::string& note() const { return states_.note; }
   std::string left_out() const { return left_out_of_converted(scenario(), to_); }
   std::vector<std::string> columns_left_out() const {
     std::vector<std::string> all{"step"};
@@ -128,95 +239,15 @@ class ConvertedRun::Impl {
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
-  const std::string& arithmetic() const { return scenario().request.arithmetic; }
   bool has_digits() const { return given_.find("digits/t") != nullptr; }
-
-  void convert_all() {
-    const std::size_t size = target_->info.coordinates.size();
-    const auto list = [&](const char* name, const std::vector<std::string>& parts, const char* meaning) {
-      return ColumnInfo{.name = name, .width = size, .scalar = false, .parts = parts, .meaning = meaning};
-    };
-    const auto digits_of = [&](ColumnInfo info) {
-      info.name = "digits/" + info.name;
-      info.type = ValueType::text;
-      info.text_size = longest_digits(arithmetic());
-      return Column(info);
-    };
-    const ColumnInfo of_q = list("q", names_.q, "coordinates, converted");
-    const ColumnInfo of_p = list("p", names_.p, "canonical momenta, converted");
-    Column q(of_q);
-    Column p(of_p);
-    Column q_digits = digits_of(of_q);
-    Column p_digits = digits_of(of_p);
-    StateConverter convert(scenario().problem, target_, scenario().request.parameters);
-    for (std::size_t k = 0; k < given_.rows(); ++k) {
-      try {
-        CanonicalState state = convert({given_["q"].row(k), given_["p"].row(k)});
-        if (has_digits()) {
-          const DigitState digits =
-              convert_digits(state, {given_["digits/q"].row_of_texts(k), given_["digits/p"].row_of_texts(k)});
-          for (const std::string& x : digits.q) q_digits.add(x);
-          for (const std::string& x : digits.p) p_digits.add(x);
-        }
-        for (const double x : state.q) q.add(x);
-        for (const double x : state.p) p.add(x);
-      } catch (const Error& error) {
-        throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(given_["t"].numbers()[k]), error.what()));
-      }
-    }
-    states_.add(std::move(q));
-    states_.add(std::move(p));
-    if (has_digits()) {
-      states_.add(std::move(q_digits));
-      states_.add(std::move(p_digits));
-      for (const auto& [name, meaning] : {std::pair{"energy", "H(q, p)"}, std::pair{"t", "time"}}) {
-        Column column = digits_of({.name = name, .parts = {name}, .meaning = meaning});
-        for (const std::string& x : given_[std::string("digits/") + name].texts()) column.add(x);
-        states_.add(std::move(column));
-      }
-    }
-    turn_ = std::max(convert.largest_turn(), fastest_turn(convert.turning()));
-    turning_ = joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; });
-  }
-
-  /// In the run's arithmetic, with the whole turns that the doubles have been given. The doubles become those of the
-  /// digits.
-  DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
-    DigitState state = in_chart_of(*target_, *without_own_walls(scenario().problem), scenario().request.parameters,
-                                   arithmetic(), given);
-    for (std::size_t i = 0; i < state.q.size(); ++i) {
-      const auto& angles = target_->info.angles;
-      if (std::find(angles.begin(), angles.end(), target_->info.coordinates[i]) != angles.end()) {
-        const double missing = in_double.q[i] - evaluate_number<double>(state.q[i]);
-        state.q[i] = turned(state.q[i], std::llround(missing / (2 * pi_value<double>())), arithmetic());
-      }
-      in_double.q[i] = evaluate_number<double>(state.q[i]);
-      in_double.p[i] = evaluate_number<double>(state.p[i]);
-    }
-    return state;
-  }
-  /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
-  double fastest_turn(const std::vector<std::size_t>& angles) const {
-    double most = 0;
-    const std::span<const double> t = given_["t"].numbers();
-    for (std::size_t k = 0; k + 1 < t.size() && !angles.empty(); ++k) {
-      const std::vector<double> rates =
-          target_->gradient(scenario().request.parameters, states_["q"].row(k), states_["p"].row(k)).by_p;
-      for (const std::size_t i : angles) most = std::max(most, std::abs(rates[i] * (t[k + 1] - t[k])));
-    }
-    return most;
-  }
 
   fs::path file_;
   std::string to_;
   std::string from_;
   StoredRun run_;
   const Table& given_;  // its samples
-  Table states_;        // q and p in the coordinates `to`; of a run beyond double with the columns digits/...
-  StateNames names_;
   Reading reading_;
-  double turn_ = 0;
-  std::string turning_;
+  ConvertedSamples states_;
   std::shared_ptr<const ProblemEntry> target_{};  // the problem in the coordinates `to`
 };
 
@@ -226,8 +257,7 @@ ConvertedRun::~ConvertedRun() = default;
 std::string ConvertedRun::csv() const { return impl_->csv(); }
 std::string ConvertedRun::json() const { return impl_->json(); }
 std::string ConvertedRun::write_h5(const fs::path& target) const { return impl_->write_h5(target); }
-double ConvertedRun::largest_turn() const { return impl_->turn(); }
-const std::string& ConvertedRun::turning() const { return impl_->turning(); }
+const std::string& ConvertedRun::note() const { return impl_->note(); }
 std::string ConvertedRun::left_out() const { return impl_->left_out(); }
 std::vector<std::string> ConvertedRun::columns_left_out() const { return impl_->columns_left_out(); }
 

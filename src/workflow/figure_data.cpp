@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
@@ -28,13 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* drawn_by_sweep = "of a sweep: hamflow sweep --figure draws it";
+std::string drawn_by_sweep() { return "of a sweep: " + command_name("sweep --figure") + " draws it"; }
 
 /// What a folder is that has no samples to draw; empty where nothing tells.
 std::string what_is(const fs::path& folder) {
   std::error_code none;
   const auto has = [&](const char* name) { return fs::exists(folder / name, none); };
-  if (has("sweep.h5") || has("members.bin")) return std::string("the folder ") + drawn_by_sweep;
+  if (has("sweep.h5") || has("members.bin")) return "the folder " + drawn_by_sweep();
   if (has("compare.json")) {
     const fs::path figure = folder / "figures" / "work-precision.svg";
     return "the folder of a comparison" +
@@ -205,7 +206,7 @@ bool show_energy(const std::vector<std::string>& kinds) {
 fs::path stored_run_in(const fs::path& run) {
   std::error_code none;
   if (run.filename() == "sweep.h5" && fs::exists(run, none)) {
-    throw FileError(run.string() + " cannot be read: it is the table " + drawn_by_sweep);
+    throw FileError(run.string() + " cannot be read: it is the table " + drawn_by_sweep());
   }
   if (!fs::is_directory(run, none)) return run;
   if (fs::exists(run / "run.h5", none)) return run / "run.h5";

@@ -51,6 +51,20 @@ void draw_figure(const FigureRequest& request) {
   }
 }
 
+figures::Page figure_page(const Scenario& scenario, const RunTables& tables, const FigureRequest& request) {
+  Figure figure{{}, {.x = request.x, .y = request.y, .at = request.at}};
+  const std::vector<std::string> kinds =
+      request.kind.empty() ? std::vector<std::string>() : std::vector<std::string>{request.kind};
+  std::vector<RunForFigure> runs;
+  runs.push_back(for_figure(scenario, tables, "run", kinds));
+  tell_apart(runs);
+  const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(runs[0].data));
+  if (draws_path(kind)) runs[0].data.opening = opening_of(runs[0]);
+  add_start(runs[0], figure.options.at);
+  figure.runs.push_back(std::move(runs[0].data));
+  return page_of(figure, kind);
+}
+
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file) {
   draw_figure({.runs = {run}, .kind = kind, .file = file});
 }

@@ -11,7 +11,7 @@ namespace hamflow {
 
 OpenedRun open_run(const std::filesystem::path& run) {
   const std::filesystem::path file = stored_run_in(run);
-  StoredRun stored = read_run_file(file, {.digits = true, .events = true});
+  StoredRun stored = read_run_file(file, {.digits = true, .counts = true, .events = true});
   OpenedRun opened{scenario_of(stored, file), std::move(stored.tables), {}};
   const std::filesystem::path summary = file.parent_path() / "summary.json";
   std::ifstream in(summary, std::ios::binary);

@@ -9,6 +9,7 @@
 #include "csv_file.hpp"
 #include "gas_options.hpp"
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "json_text.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
@@ -20,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double checkpoint_seconds = 10;
-const char* const what_to_do = "; give --out another folder, or --force to begin anew";
 
 std::string instruction_set(const Scenario& scenario) { return std::string(fast_instruction_set(scenario.request)); }
 
@@ -76,7 +76,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   const auto complain = [&](const std::string& key, const std::string& message) {
     const auto found = settings.find(key);
     const Setting where = found == settings.end() ? Setting{{}, 1, 1} : found->second;
-    all.push_back({scenario.file, where.line, where.column, key, message + what_to_do});
+    all.push_back({scenario.file, where.line, where.column, key, message + advice_to_begin_anew()});
   };
   std::map<std::string, std::string> before;
   for (std::size_t i = 0; i < checkpoint.keys.size(); ++i) before[checkpoint.keys[i]] = checkpoint.values[i];
@@ -86,30 +86,32 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     const std::string found = shown(value);
     const auto there = before.find(key);
     if (there == before.end()) {
-      complain(key, "found " + found + "; allowed with --resume without this key, as when the run began");
+      complain(key, "found " + found + "; allowed with " + option_name("resume") +
+                        " without this key, as when the run began");
     } else if (there->second != value) {
-      complain(key, "found " + found + "; allowed with --resume " + shown(there->second) + ", as when the run began");
+      complain(key, "found " + found + "; allowed with " + option_name("resume") + " " + shown(there->second) +
+                        ", as when the run began");
     }
   }
   for (const auto& [key, value] : before) {
     // The file is gone, and the start is that of run.h5.
     if (key == contents_key() && !scenario.start_contents) continue;
     if (is_free_on_resume(key) || settings.contains(key)) continue;
-    complain(key, "missing; allowed with --resume " + shown(value) + ", as when the run began");
+    complain(key, "missing; allowed with " + option_name("resume") + " " + shown(value) + ", as when the run began");
   }
   if (scenario.steps < checkpoint.step) {
     const std::string by_time = run_path(run_keys().t_end);
     complain(scenario.settings.contains(by_time) ? by_time : run_path(run_keys().steps),
-             "found " + std::to_string(scenario.steps) + " steps; allowed with --resume at least the " +
-                 std::to_string(checkpoint.step) + " that were taken");
+             "found " + std::to_string(scenario.steps) + " steps; allowed with " + option_name("resume") +
+                 " at least the " + std::to_string(checkpoint.step) + " that were taken");
   }
   if (checkpoint.version != HAMFLOW_VERSION) {
-    complain("hamflow", std::string("found version " HAMFLOW_VERSION "; allowed with --resume version ") +
+    complain("hamflow", "found version " HAMFLOW_VERSION "; allowed with " + option_name("resume") + " version " +
                             checkpoint.version + ", with which the run began");
   }
   if (scenario.request.kernel == "fast" && checkpoint.instruction_set != instruction_set(scenario)) {
     complain(run_path(run_keys().kernel), "found \"fast\" with the instruction set " + instruction_set(scenario) +
-                                              "; allowed with --resume the instruction set " +
+                                              "; allowed with " + option_name("resume") + " the instruction set " +
                                               checkpoint.instruction_set + ", with which the run began");
   }
   return all;
@@ -139,7 +141,7 @@ void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const
     std::error_code none;
     if (!wanted || (begun && !fs::exists(file, none))) return;
     if (const std::string wrong = wrong_with(file); !wrong.empty()) {
-      throw FileError("cannot go on with " + file.string() + ": " + wrong + what_to_do);
+      throw FileError("cannot go on with " + file.string() + ": " + wrong + advice_to_begin_anew());
     }
   };
   check("h5", "run.h5",
@@ -166,7 +168,7 @@ void check_summary(const std::string& own, const fs::path& folder) {
   if (!text) return;
   const auto refuse = [&](const std::string& why) {
     throw FileError("the summary " + (folder / "summary.json").string() + " is not of this run: " + why +
-                    "; move it elsewhere" + what_to_do);
+                    "; move it elsewhere" + advice_to_begin_anew());
   };
   const auto found = read_json_by_keys(*text);
   if (!found.is_object()) refuse("it is no JSON object");

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "hamflow/core/hash.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "resume.hpp"
 #include "run_keys.hpp"
@@ -56,8 +57,9 @@ std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path
       const auto given = scenario.settings.find(steps);
       const Setting where = given == scenario.settings.end() ? Setting{{}, 1, 1} : given->second;
       complaints.push_back({scenario.file, where.line, where.column, steps,
-                            "found " + std::to_string(scenario.steps) + " steps; allowed with --resume the " +
-                                std::to_string(checkpoint.steps) + " after which the momenta were negated"});
+                            "found " + std::to_string(scenario.steps) + " steps; allowed with " +
+                                option_name("resume") + " the " + std::to_string(checkpoint.steps) +
+                                " after which the momenta were negated"});
     }
   } catch (const Error& error) {
     throw FileError("the checkpoint " + (folder / reversal_file).string() + " cannot be used: " + error.what());

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "bounce_names.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
@@ -313,7 +314,7 @@ RunError error_of(const Scenario& scenario, const Simulation& simulation, const 
             frame.step,
             frame.time,
             result.file_trouble,
-            "make room, or write elsewhere with --out; the samples up to the last flush are kept",
+            "make room, or write elsewhere with " + option_name("out") + "; the samples up to the last flush are kept",
             {}};
   }
   const bool says_more =

@@ -10,6 +10,7 @@
 
 #include "figure.hpp"
 #include "figure_data.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "parameter_map.hpp"
@@ -287,8 +288,9 @@ void check_column(const Sweep& sweep, const std::string& colour) {
                                   [&](const std::string& column) { return column.ends_with("/" + colour); });
   const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
   const bool exponent = colour.find("lyapunov") != std::string::npos && meant.empty();
-  throw Rejection("--colour", "found " + colour + "; allowed " + joined(columns) + meant +
-                                  (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : ""));
+  throw Rejection(option_name("colour"),
+                  "found " + colour + "; allowed " + joined(columns) + meant +
+                      (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : ""));
 }
 
 std::vector<std::string> columns_to_average(const std::string& columns) {
@@ -315,10 +317,11 @@ struct MeanOfMembers {
 }  // namespace
 
 void check_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns) {
-  if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Rejection("--figure", wrong);
+  if (const std::string wrong = refused_figure_file(file); !wrong.empty())
+    throw Rejection(option_name("figure"), wrong);
   const std::vector<std::size_t> free = sweep.varied().free_keys();
   if (free.size() < 2) {
-    throw Rejection("--mean",
+    throw Rejection(option_name("mean"),
                     "found one key that is varied by itself; allowed two or more: the mean is over all but the first");
   }
   for (const std::string& column : columns_to_average(columns)) check_column(sweep, column);
@@ -377,28 +380,31 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
 }
 
 void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour) {
-  if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Rejection("--figure", wrong);
+  if (const std::string wrong = refused_figure_file(file); !wrong.empty())
+    throw Rejection(option_name("figure"), wrong);
   if (draws_section(sweep, colour)) {
     if (!sweep.names().have_same_state()) {
-      throw Rejection("--figure",
+      throw Rejection(option_name("figure"),
                       "found a section of members with different coordinates; allowed members with the same "
-                      "coordinates, or --colour COLUMN");
+                      "coordinates, or " +
+                          option_name("colour") + " COLUMN");
     }
     const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
                             .section = true,
                             .stroboscopic = sweep.common().section->by_time_alone};
     const std::string refused = refused_figure("section", facts);
-    if (!refused.empty()) throw Rejection("--figure", refused);
+    if (!refused.empty()) throw Rejection(option_name("figure"), refused);
     return;
   }
   const FigureKeys keys = figure_keys(sweep.varied());
   if (keys.free.size() > 2) {
-    throw Rejection("--figure", "found " + std::to_string(keys.free.size()) + " varied keys; allowed one or two");
+    throw Rejection(option_name("figure"),
+                    "found " + std::to_string(keys.free.size()) + " varied keys; allowed one or two");
   }
   if (keys.has_lines && sweep.varied().keys()[keys.lines].texts.size() > most_map_lines) {
     const Vary& lines = sweep.varied().keys()[keys.lines];
-    throw Rejection("--figure", fmt::format("found {} values of {}, a line each; allowed up to {}", lines.texts.size(),
-                                            lines.path, most_map_lines));
+    throw Rejection(option_name("figure"), fmt::format("found {} values of {}, a line each; allowed up to {}",
+                                                       lines.texts.size(), lines.path, most_map_lines));
   }
   check_column(sweep, colour);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hamflow/core/inverse_cube.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "resume.hpp"
 #include "run_description.hpp"
 #include "sweep_table.hpp"
@@ -32,18 +33,18 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
   began.keys = before.keys;
   began.values = before.values;
   std::vector<Complaint> all = differences(scenario_in_common(sweep), began);
-  const auto complain = [&](const char* option, const std::string& found, const std::string& allowed) {
+  const auto complain = [&](const std::string& option, const std::string& found, const std::string& allowed) {
     all.push_back({"", 0, 0, option,
-                   "found " + found + "; allowed with --resume " + allowed +
-                       ", as when the sweep began; give --out another folder, or --force to begin anew"});
+                   "found " + found + "; allowed with " + option_name("resume") + " " + allowed +
+                       ", as when the sweep began" + advice_to_begin_anew()});
   };
   for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
     const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";
     const std::string allowed = i < before.varied.size() ? before.varied[i] : "nothing";
-    if (found != allowed) complain("--vary", found, allowed);
+    if (found != allowed) complain(option_name("vary"), found, allowed);
   }
-  const auto name = [](bool in_step) { return in_step ? "--zip" : "no --zip"; };
-  if (now.in_step != before.in_step) complain("--zip", name(now.in_step), name(before.in_step));
+  const auto name = [](bool in_step) { return (in_step ? "" : "no ") + option_name("zip"); };
+  if (now.in_step != before.in_step) complain(option_name("zip"), name(now.in_step), name(before.in_step));
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/workflow/sweep.hpp"
@@ -84,12 +85,12 @@ void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Wa
 Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Complaint>& wrong) {
   std::vector<Vary> varied;
   const auto complain = [&](const char* option, std::string message) {
-    wrong.push_back({"", 0, 0, option, std::move(message)});
+    wrong.push_back({"", 0, 0, option_name(option), std::move(message)});
   };
-  if (request.varied.empty()) complain("--vary", "found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
+  if (request.varied.empty()) complain("vary", "found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
   if (request.threads < 0 || request.threads > most_sweep_threads) {
-    complain("--threads", "found " + std::to_string(request.threads) + "; allowed 1 to " +
-                              std::to_string(most_sweep_threads) + ", 0 for all");
+    complain("threads", "found " + std::to_string(request.threads) + "; allowed 1 to " +
+                            std::to_string(most_sweep_threads) + ", 0 for all");
   }
   const auto try_to = [&](const char* option, const auto& action) {
     try {
@@ -102,44 +103,46 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
   double members = 1;
   for (const std::string& vary : request.varied) members *= static_cast<double>(count_of_range(vary));
   if (!request.zip && members > static_cast<double>(most_members)) {
-    complain("--vary", "found more than 10000000 members; allowed fewer values for each key");
+    complain("vary", "found more than 10000000 members; allowed fewer values for each key");
     return {};
   }
   for (const std::string& vary : request.varied) {
-    try_to("--vary", [&] { varied.push_back(parse_vary(vary)); });
+    try_to("vary", [&] { varied.push_back(parse_vary(vary)); });
   }
   for (const Vary& vary : varied) {
     if (decides_columns(vary.path)) {
-      complain("--vary", "found " + vary.path + ", which all members of a sweep have in common; allowed --set " +
-                             vary.path + "=..., a sweep for each value");
+      complain("vary", "found " + vary.path + ", which all members of a sweep have in common; allowed " +
+                           set_option(vary.path, "...") + ", a sweep for each value");
     }
     if (!belongs_to_single_runs(vary.path)) continue;
-    complain("--vary", "found " + vary.path +
-                           (is_part_of_other(output_path(output_keys().observables), vary.path)
-                                ? ", which all members of a sweep have in common; allowed --set " + vary.path + "=..., "
-                                : ", on which no number of a sweep depends; allowed ") +
-                           "keys of [problem], [method] and the others of [run]");
+    complain("vary",
+             "found " + vary.path +
+                 (is_part_of_other(output_path(output_keys().observables), vary.path)
+                      ? ", which all members of a sweep have in common; allowed " + set_option(vary.path, "...") + ", "
+                      : ", on which no number of a sweep depends; allowed ") +
+                 "keys of [problem], [method] and the others of [run]");
   }
   for (std::size_t i = 0; i < varied.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (varied[i].path == varied[j].path) {
-        complain("--vary", "found " + varied[i].path + " twice");
+        complain("vary", "found " + varied[i].path + " twice");
       } else if (is_part_of_other(varied[i].path, varied[j].path)) {
-        complain("--vary", "found " + varied[j].path + " beside " + varied[i].path +
-                               ", of which one replaces the other; allowed one of them");
+        complain("vary", "found " + varied[j].path + " beside " + varied[i].path +
+                             ", of which one replaces the other; allowed one of them");
       }
     }
     for (const std::string& set : request.sets) {
       const std::string path = parsed_set(set).first;
       if (!is_part_of_other(path, varied[i].path) || path.size() < varied[i].path.size()) continue;
-      complain("--set", "found " + path + ", which --vary " + varied[i].path + " replaces; allowed one of them");
+      complain("set", "found " + path + ", which " + option_name("vary") + " " + varied[i].path +
+                          " replaces; allowed one of them");
     }
   }
   Varied all;
   if (wrong.empty()) {
-    try_to(request.zip ? "--zip" : "--vary", [&] { all = Varied(std::move(varied), request.zip); });
+    try_to(request.zip ? "zip" : "vary", [&] { all = Varied(std::move(varied), request.zip); });
   }
-  try_to("--lanes", [&] { how.lanes = lanes_named(request.lanes); });
+  try_to("lanes", [&] { how.lanes = lanes_named(request.lanes); });
   return all;
 }
 
@@ -164,9 +167,10 @@ class ScenarioSweep::Impl {
     notes = sweep->notes();
     const Scenario& common = sweep->common();
     if (!common.folder.empty())
-      notes.push_back(output_path(output_keys().folder) + " is not used: the folder of a sweep is that of --out");
+      notes.push_back(output_path(output_keys().folder) + " is not used: the folder of a sweep is that of " +
+                      option_name("out"));
     if (!common.figures.empty())
-      notes.push_back(output_path(output_keys().figures) + " is not used: a sweep draws with --figure FILE");
+      notes.push_back(output_path(output_keys().figures) + " is not used: a sweep draws with " + option_name("figure"));
   }
 
   SweepRequest request;

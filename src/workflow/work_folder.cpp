@@ -12,6 +12,7 @@
 #include "figure_kinds.hpp"
 #include "gas_options.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "whole_file.hpp"
@@ -102,8 +103,9 @@ std::string left_in(const fs::path& folder, const FolderKind& kind) {
 void remove_file(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(file, error))) {
-    throw FileError(file.string() + " is a folder, which hamflow leaves under no such name: it is not removed; " +
-                    "give --out another");
+    throw FileError(file.string() +
+                    " is a folder, which hamflow leaves under no such name: it is not removed; give another " +
+                    option_name("out"));
   }
   fs::remove(file, error);
   if (error) throw FileError("cannot remove " + file.string() + ": " + error.message());
@@ -141,9 +143,10 @@ void refuse_own_input(const Scenario& scenario, const fs::path& folder, const Na
   const toml::table read = toml::parse("file = " + given->second.text);
   const auto file = read["file"].value<std::string>();
   if (!file || !is_among(fs::path(scenario.file).parent_path() / *file, folder, removed)) return;
-  throw Rejection({{scenario.file, given->second.line, given->second.column, key,
-                    "found \"" + *file + "\", which --force would remove with what is in " + folder.string() +
-                        "; allowed another --out, or a copy of the file elsewhere"}});
+  throw Rejection(
+      {{scenario.file, given->second.line, given->second.column, key,
+        "found \"" + *file + "\", which " + option_name("force") + " would remove with what is in " + folder.string() +
+            "; allowed another " + option_name("out") + ", or a copy of the file elsewhere"}});
 }
 
 }  // namespace
@@ -162,11 +165,13 @@ WorkFolder::WorkFolder(fs::path folder, const FolderKind& kind, Existing existin
   const std::string other = other_kind_in(path_, kind);
   if (existing == Existing::refuse) {
     if (!other.empty()) {
-      throw FileError("the folder " + path_.string() + " exists, with a " + other + " in it; give --out another");
+      throw FileError("the folder " + path_.string() + " exists, with a " + other + " in it; give another " +
+                      option_name("out"));
     }
-    throw FileError("the folder " + path_.string() + " exists; give " +
-                    (kind.goes_on_from.empty() ? "" : "--resume to go on with the " + kind.name + " in it, ") +
-                    "--force to replace it, or --out another");
+    throw FileError(
+        "the folder " + path_.string() + " exists; give " +
+        (kind.goes_on_from.empty() ? "" : option_name("resume") + " to go on with the " + kind.name + " in it, ") +
+        option_name("force") + " to replace it, or another " + option_name("out"));
   }
   lock();
   goes_on_ = existing == Existing::resume && is_there(path_ / kind.goes_on_from);
@@ -175,12 +180,13 @@ WorkFolder::WorkFolder(fs::path folder, const FolderKind& kind, Existing existin
     throw FileError(
         "found a " + other + " in " + path_.string() +
         (existing == Existing::replace ? ", which is not replaced" : ", from which no " + kind.name + " goes on") +
-        "; allowed a folder of a " + kind.name + ", or --out another");
+        "; allowed a folder of a " + kind.name + ", or another " + option_name("out"));
   }
   if (existing == Existing::replace) return;
   if (const std::string left = left_in(path_, kind); !left.empty()) {
     throw FileError("there is no " + kind.goes_on_from + " in " + path_.string() + " to go on from, but " + left +
-                    "; give --out another folder, or --force to replace what is there");
+                    "; give another " + option_name("out") + ", or " + option_name("force") +
+                    " to replace what is there");
   }
   note_ = "there is no " + kind.goes_on_from + " in " + path_.string() + " to go on from: the " + kind.name +
           " starts from the beginning";
@@ -218,7 +224,8 @@ void WorkFolder::prepare() {
     const bool made = fs::create_directories(path_, error);
     if (error) throw FileError("cannot make the folder " + path_.string() + ": " + error.message());
     if (!made)
-      throw FileError("another process has made the folder " + path_.string() + " meanwhile; give --out another");
+      throw FileError("another process has made the folder " + path_.string() + " meanwhile; give another " +
+                      option_name("out"));
     lock();
     is_there_ = true;
     return;

@@ -62,7 +62,7 @@ class Resume(CommandCase):
             self.assertIn(f"found a {kind} in", said)
             self.assertIn(f"from which no {other} goes on", said)
             said = self.hamflow(*arguments, status=3).stderr
-            self.assertIn(f"exists, with a {kind} in it; give --out another", said)
+            self.assertIn(f"exists, with a {kind} in it; give another --out", said)
         self.assertEqual(sorted(os.listdir(self.folder / "a")), before)
 
     def test_the_scenario_of_a_longer_run_has_its_spacing_of_samples(self):

@@ -394,7 +394,7 @@ steps = 333
         self.write("k.toml", KEPLER + '[output]\nfolder = "mine"\nfigures = ["energy-error"]\n')
         told = self.hamflow("sweep", "k.toml", "--vary", "problem.k=1", "--out", "none").stderr
         self.assertIn("note: output.folder is not used: the folder of a sweep is that of --out", told)
-        self.assertIn("note: output.figures is not used: a sweep draws with --figure FILE", told)
+        self.assertIn("note: output.figures is not used: a sweep draws with --figure", told)
         for words in (["compare", "k.toml", "--methods", "stv4", "--dt", "0.05"], ["reverse", "k.toml"]):
             self.assertIn("note: output.figures is not used", self.hamflow(*words, "--set", "run.steps=3").stderr, words)
 

@@ -66,7 +66,7 @@ TEST(IteratedLanes, EveryLaneIsTheMemberAlone) {
 TEST(IteratedLanes, WildMembersStayInThem) {
   constexpr std::size_t count = 16;
   constexpr std::int64_t steps = 1500;
-  MemberFamily family(find_problem("double-pendulum", {{"model", "nonlinear"}, {"angles", "absolute"}}), count);
+  MemberFamily family(*find_problem("double-pendulum", {{"model", "nonlinear"}, {"angles", "absolute"}}), count);
   for (std::size_t i = 0; i < count; ++i) {
     MemberStart& member = family.members[i];
     const MemberStart& first = family.members[0];

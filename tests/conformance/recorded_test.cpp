@@ -115,7 +115,7 @@ template <class A, class P, class Recipe>
 void expect_typed_bits(const std::string& problem, const std::map<std::string, std::string>& variant,
                        const std::string& method, const Recipe& recipe) {
   SCOPED_TRACE(method + " on " + problem + " in " + std::string(A::name));
-  Request request = test::measured_request(find_problem(problem, variant));
+  Request request = test::measured_request(*find_problem(problem, variant));
   request.method = {.name = method};
   request.arithmetic = std::is_same_v<A, Plain<double>> ? "double" : "compensated";
   request.kernel = is_fast<P> ? "fast" : "exact";

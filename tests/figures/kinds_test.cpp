@@ -63,7 +63,7 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
       "phase, time, energy-error, energy");
   EXPECT_EQ(refused_figure("phase", {.degrees_of_freedom = 13}),
             "found \"phase\" for a problem with 13 degrees of freedom, of which at most 12 fit on a page; choose "
-            "columns with hamflow plot --x and --y; allowed time, energy-error, energy");
+            "columns with --x and --y; allowed time, energy-error, energy");
   EXPECT_EQ(refused_figure("condition", {.degrees_of_freedom = 1}),
             "found \"condition\", which needs method.diagnostics = true of an implicit method; allowed phase, "
             "time, energy-error, energy");

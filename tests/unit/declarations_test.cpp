@@ -111,7 +111,7 @@ TEST(Declarations, EveryExampleIsAccepted) {
 
 TEST(Declarations, AnOpenChoiceIsTheDeclaredOne) {
   const auto chosen = [](const char* name, const std::map<std::string, std::string>& variant) {
-    return name_of(usual_problem(name, variant));
+    return name_of(*usual_problem(name, variant));
   };
   EXPECT_EQ(chosen("central-force", {}), "central-force kepler cartesian");
   EXPECT_EQ(chosen("central-force", {{"coordinates", "polar"}}), "central-force kepler polar");
@@ -207,7 +207,7 @@ TEST(Declarations, MomentumMapsAreJudgedByTheirTerms) {
   Observer* const observers[] = {&blocks};
   ASSERT_EQ(run(*simulation, 1000, observers), Outcome::done);
   const auto& magnitudes = blocks.state().magnitudes;
-  ProblemEntry problem = find_problem("n-body", {});
+  ProblemEntry problem = *find_problem("n-body", {});
   const std::vector<MomentumMap> shipped = momentum_maps(*simulation, problem, magnitudes, request);
   ASSERT_EQ(shipped.size(), 3u);
   for (const MomentumMap& map : shipped) EXPECT_EQ(map.conserved(), true) << map.name;

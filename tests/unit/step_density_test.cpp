@@ -380,7 +380,7 @@ TEST(StepDensity, RecordedStepsHaveTheSameBits) {
           MethodSpec spec = parse_method(method);
           spec.options["step_control"] = "reversible";
           spec.options["monitor"] = monitor;
-          if (!refusal(spec, find_problem(request.problem, request.variant)).empty()) continue;
+          if (!refusal(spec, *find_problem(request.problem, request.variant)).empty()) continue;
           request.method = spec;
           request.arithmetic = arithmetic;
           request.record = true;

@@ -17,6 +17,8 @@ void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y);
 
 /// Colours that differ in hue and in grey, the first that of a figure of one run; they repeat after eight.
 std::string colour_of(std::size_t place);
+/// The colour of a series, its own or that of its ink.
+std::string colour_of(const Series& series);
 /// For the n-th of many series: its colour, and dashes where colours repeat.
 Mark mark_of(std::size_t place);
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/table.hpp"
+#include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/coordinates.hpp"
 #include "hamflow/scenario/rejection.hpp"
 
@@ -34,6 +36,16 @@ std::string left_out_of_converted(const Scenario& scenario, const std::string& t
 /// Whether a path names the folder of a run or an HDF5 file, whatever it is called.
 bool is_run(const std::filesystem::path& path);
 
+struct ConvertedSamples {
+  Table table;  // q, p; of a run beyond double also digits/q, digits/p, digits/energy, digits/t
+  StateNames names;
+  /// Says where an angle, whose whole turns the samples do not show, changes so much from one sample to the next that
+  /// turns may be missing; else empty.
+  std::string note;
+};
+/// The samples of a run in the coordinates `to`.   @throws Error when a state cannot be converted
+ConvertedSamples converted_samples(const Scenario& scenario, const Table& samples, const std::string& to);
+
 /// Every sample of a run in the coordinates `to`.
 class ConvertedRun {
  public:
@@ -49,11 +61,8 @@ class ConvertedRun {
   /// nothing
   /// @throws FileError
   std::string write_h5(const std::filesystem::path& target) const;
-  /// The largest change between two samples, in radians, of an angle whose whole turns the samples do not show: where
-  /// it is more than pi turns may be missing. 0 where `to` has no such angle.
-  double largest_turn() const;
-  /// The names of these angles, with commas between.
-  const std::string& turning() const;
+  /// See ConvertedSamples.
+  const std::string& note() const;
   /// Keys of its scenario that the converted one has not.
   std::string left_out() const;
   /// Columns of the run that csv() and json() have not.

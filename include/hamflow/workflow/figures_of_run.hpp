@@ -11,6 +11,10 @@
 
 namespace hamflow {
 
+namespace figures {
+struct Page;
+}
+
 struct FigureRequest {
   std::vector<std::filesystem::path> runs;  // folders or run.h5, also of runs that go on or were cut short
   std::string kind{};                       // see figure_kinds(); empty: usual_figure() of the first run
@@ -30,6 +34,11 @@ void draw_figure(const FigureRequest& request);
 
 /// Draws one figure of a run as it is usual.
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file);
+
+/// The figure of a run in memory (hamflow/figures/page.hpp).
+/// @param request its kind, columns and times; its runs and file are not used   @throws Error when the run has no such
+/// figure
+figures::Page figure_page(const Scenario& scenario, const RunTables& tables, const FigureRequest& request);
 
 /// Draws those that the scenario requests in output.figures, each as .svg, .pdf and .png, into figures/ of the folder
 /// of its run.   @param tables of the run; null: they are read from its folder   @return why those are missing that

@@ -7,6 +7,7 @@
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
@@ -18,7 +19,7 @@ using Plane = std::pair<std::string, std::string>;
 std::string refused(const FigureFacts& facts) {
   if (facts.columns_chosen || facts.degrees_of_freedom <= most_planes) return "";
   return for_degrees(facts) + ", of which at most " + std::to_string(most_planes) +
-         " fit on a page; choose columns with hamflow plot --x and --y";
+         " fit on a page; choose columns with " + option_name("x") + " and " + option_name("y");
 }
 
 std::string obstacle(const FigureData& data) {

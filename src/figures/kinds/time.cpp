@@ -5,6 +5,7 @@
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
+#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
 
 namespace hamflow::figures {
@@ -16,8 +17,8 @@ constexpr std::size_t most_named = 24;     // in one panel: colours and dashes r
 std::string refused(const FigureFacts& facts) {
   if (facts.columns_chosen || facts.degrees_of_freedom <= most_degrees) return "";
   const bool of_bodies = facts.bodies_in_space || facts.particles;
-  return for_degrees(facts) + ", where columns have to be chosen: hamflow plot --kind time --y " +
-         (of_bodies ? "x1,y1" : "q1,q2");
+  return for_degrees(facts) + ", where columns have to be chosen: " +
+         command_name(std::string("plot --kind time --y ") + (of_bodies ? "x1,y1" : "q1,q2"));
 }
 
 std::string obstacle(const FigureData& data) {

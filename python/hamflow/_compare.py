@@ -1,0 +1,155 @@
+"""Work and precision: what accuracy costs with several methods."""
+
+from __future__ import annotations
+
+import json
+import os
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Sequence
+
+from . import _core, _html
+from ._errors import Error
+from ._run import Progress, progress_of_both
+from ._scenario import text_of
+
+_SHOWN = ("method", "order", "dt", "steps", "evaluations", "error", "max_energy_error", "seconds", "status")
+
+
+class Compare:
+    """Several methods with several step sizes on one problem.
+
+    Attributes
+    ----------
+    rows : list of dict
+        One for each method and step size, with the names and values of `hamflow compare --json`: method, order, dt,
+        steps, status, evaluations (force, gradient, hessian, linear_solves), error (largest difference at the end over
+        its size along the motion), max_energy_error, end_energy_error, seconds, ... Numbers too small for a float are
+        texts.
+    summary : dict
+        All of that JSON: status, reference (kind, description, q, p, uncertainty), rows, winners, warnings.
+    text : str
+        The table of the command.
+    notes : list of str
+        What is worth knowing of the request: keys that are not used, step sizes that were moved.
+    """
+
+    def __init__(self, report: Any, notes: Sequence[str]) -> None:
+        self._report = report
+        self.summary: dict[str, Any] = json.loads(report.json)
+        self.rows: list[dict[str, Any]] = self.summary["rows"]
+        self.status: str = self.summary["status"]
+        self.text: str = report.text
+        self.notes = list(notes)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws error over evaluations, error over seconds and energy error over evaluations.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, or an array of three, optional
+            A single one takes error over evaluations. Default: new ones.
+
+        Returns
+        -------
+        The axes.
+
+        Raises
+        ------
+        Error
+            Where no run has an error to draw.
+        """
+        from ._page import draw
+
+        return draw(self._report.page(), ax)
+
+    def figure(self, file: str | os.PathLike[str]) -> None:
+        """Draws the same by gnuplot: .svg, .pdf or .png."""
+        self._report.draw(os.fspath(file))
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame of the rows, with a column for each kind of evaluations."""
+        import pandas
+
+        return pandas.json_normalize(self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __repr__(self) -> str:
+        methods = dict.fromkeys(row["method"] for row in self.rows)
+        return f"<hamflow.Compare {self.summary['problem']}: {', '.join(methods)}, {len(self.rows)} runs, {self.status}>"
+
+    def _repr_html_(self) -> str:
+        def shown(row: dict[str, Any], name: str) -> Any:
+            return row[name]["force"] + row[name]["gradient"] if name == "evaluations" else row[name]
+
+        return _html.table(_SHOWN, ([shown(row, name) for name in _SHOWN] for row in self.rows))
+
+
+def _number(dt: Any) -> str:
+    return str(dt) if isinstance(dt, (str, Decimal, Fraction)) else str(_core.value_text(dt))
+
+
+def compare(scenario: Any, /, *, methods: Sequence[str] | str, dt: Sequence[Any] | float | str | None = None,
+            out: str | os.PathLike[str] | None = None, existing: str = "error",
+            progress: bool | Progress | None = None) -> Compare:
+    """Runs a scenario with several methods and step sizes, and measures error, evaluations and time.
+
+    Parameters
+    ----------
+    scenario : Scenario, dict of tables, or name of a TOML file
+        Its own method is not run; the other keys of its table [method] hold for every method that has them.
+    methods : list of str
+        Such as ["verlet", "cg(1,5)"].
+    dt : list of float or str, optional
+        Each is moved to the nearest step size that divides the time of the run. Default: 2, 1, 1/2, ..., 1/16 of that
+        of the scenario.
+    out : path, optional
+        A folder for compare.json, compare.csv and figures/.
+    existing : "error" or "replace"
+        What to do with a folder that exists.
+    progress : bool or callable(done, total), optional
+        Of runs. Default: on a terminal, for what takes longer than 2 s.
+
+    Returns
+    -------
+    Compare
+
+    Raises
+    ------
+    Rejection
+        With everything that is wrong, before anything runs.
+    Error
+        Where no run comes to its end; its attribute `partial` is the comparison.
+    FileError
+    KeyboardInterrupt
+        Its attribute `partial` is the comparison so far.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 50})
+    >>> cmp = hf.compare(s, methods=["verlet", "stv4"], dt=[0.1, 0.05])
+    >>> [(row["method"], row["steps"]) for row in cmp.rows]
+    [('verlet', 50), ('verlet', 100), ('stv4', 50), ('stv4', 100)]
+    >>> cmp.rows[3]["error"] < cmp.rows[1]["error"]
+    True
+    """
+    text, name = text_of(scenario)
+    sizes = [] if dt is None else [dt] if isinstance(dt, (str, int, float, Decimal, Fraction)) else list(dt)
+    found = _core.compare(text, name, [methods] if isinstance(methods, str) else list(methods),
+                          [_number(each) for each in sizes], Path(out) if out is not None else "", existing,
+                          progress_of_both(progress))
+    result = Compare(found["report"], found["notes"])
+    if found["interrupted"]:
+        stopped: BaseException = KeyboardInterrupt()
+        stopped.partial = result  # type: ignore[attr-defined]
+        raise stopped
+    if result.status == "failed":
+        report = found["report"]
+        failed = Error(f"{report.message}; {report.hint}" if report.hint else report.message)
+        failed.partial = result  # type: ignore[attr-defined]
+        raise failed
+    return result

@@ -1,0 +1,28 @@
+"""Numbers with more digits than a double has."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import Error
+
+
+def decimals(table: Any, name: str) -> npt.NDArray[Any]:
+    """A column t, q, p or energy as decimal.Decimal, of dtype object and the shape of the column of doubles.
+
+    Raises
+    ------
+    Error
+        Where the table has no digits beyond double.
+    """
+    if f"digits/{name}" not in table:
+        raise Error("digits: found True of samples that are doubles; allowed in arithmetic beyond double")
+    texts = np.array(table[f"digits/{name}"], dtype=object).reshape(table[name].shape)
+    found = np.empty(texts.shape, dtype=object)
+    for place in np.ndindex(texts.shape):
+        found[place] = Decimal(texts[place])
+    return found

@@ -1,0 +1,16 @@
+// Leaves a measurement that somebody wants to stop.
+#pragma once
+
+#include "hamflow/core/stop_question.hpp"
+
+namespace hamflow {
+
+/// Thrown out of measure_method() where a StopQuestion of its thread is answered.
+struct MeasuringStopped {};
+
+/// To be called between the runs of a measurement, none of which takes long.
+inline void leave_if_stopped() {
+  if (StopQuestion::answered()) throw MeasuringStopped();
+}
+
+}  // namespace hamflow

@@ -1,0 +1,160 @@
+#include "hamflow/verify/verification.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "hamflow/core/complaint.hpp"
+#include "hamflow/core/option_names.hpp"
+#include "measuring_stopped.hpp"
+
+namespace hamflow {
+
+namespace {
+
+std::vector<MethodSpec> methods_of(const VerificationRequest& request) {
+  std::vector<MethodSpec> specs;
+  std::vector<Complaint> unknown;
+  for (const std::string& text : request.methods) {
+    try {
+      specs.push_back(parse_method(text));
+    } catch (const Error& error) {
+      unknown.push_back({"", 0, 0, option_name("METHOD"), error.what()});
+    }
+  }
+  if (!unknown.empty()) throw Rejection(std::move(unknown));
+  if (!request.all) return specs;
+  for (const MethodEntry& entry : methods()) {
+    if (entry.family->representatives.empty()) specs.push_back(parse_method(entry.name));
+    for (const std::string& text : entry.family->representatives) specs.push_back(parse_method(text));
+  }
+  return specs;
+}
+
+/// The problem as a scenario means it by default; where a method cannot run there, in the first variant where all can.
+Region region_for(const std::string& problem, const std::vector<MethodSpec>& specs) {
+  const auto accepted = [&](const ProblemEntry& entry) {
+    return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
+  };
+  if (!accepted(*usual_problem(problem))) {
+    for (const ProblemEntry& entry : problems()) {
+      if (entry.info.name != problem || !accepted(entry)) continue;
+      return region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});
+    }
+  }
+  return region_of(problem);
+}
+
+/// A method, and where: without a region at walls on the given ones, or on its own.
+struct Job {
+  MethodSpec spec;
+  std::optional<Region> at_walls{};
+};
+
+}  // namespace
+
+/// The thread of the caller waits, so that it can tell what is there when it is interrupted.
+class Verification::Impl {
+ public:
+  explicit Impl(const VerificationRequest& request) {
+    const std::vector<MethodSpec> specs = methods_of(request);
+    try {
+      if (!request.problem.empty()) given_ = {region_for(request.problem, specs)};
+    } catch (const Error& error) {
+      throw Rejection(option_name("problem"), error.what());
+    }
+    for (const Region& region : given_) {
+      for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
+    }
+    const auto at_walls = given_.empty() ? std::nullopt : region_at_walls(request.problem);
+    for (const MethodSpec& spec : specs) {
+      jobs_.push_back({spec});
+      // A second copy of the state meets walls elsewhere.
+      if (at_walls && !describe(spec).carries_copy && find_problem(request.problem, at_walls->variant)->accepts(spec)) {
+        jobs_.push_back({spec, at_walls});
+      }
+    }
+    measured_.resize(jobs_.size());
+    at_work_ = std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), jobs_.size());
+    const std::size_t all = at_work_;
+    for (std::size_t k = 0; k < all; ++k) helpers_.emplace_back([this] { work(); });
+  }
+  ~Impl() { stopped_ = true; }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  bool wait(const std::function<bool()>& goes_on) {
+    std::unique_lock lock(mutex_);
+    while (at_work_ > 0) {
+      finished_.wait_for(lock, std::chrono::milliseconds(20));
+      lock.unlock();
+      const bool go_on = goes_on();
+      lock.lock();
+      if (!go_on && at_work_ > 0) return false;
+    }
+    if (failure_) std::rethrow_exception(failure_);
+    return true;
+  }
+  std::vector<PropertyRow> rows() {
+    const std::lock_guard lock(mutex_);
+    std::vector<PropertyRow> all;
+    for (const auto& row : measured_) {
+      if (row) all.push_back(*row);
+    }
+    return all;
+  }
+
+ private:
+  void work() {
+    const std::function<bool()> goes_on = [this] { return !stopped_; };
+    const StopQuestion question(goes_on);
+    try {
+      for (std::size_t i = next_++; i < jobs_.size() && !stopped_; i = next_++) {
+        const auto& [method, at_walls] = jobs_[i];
+        PropertyRow row = at_walls ? measure_at_walls(method, *at_walls)
+                                   : measure_method(method, given_.empty() ? default_regions(method) : given_);
+        const std::lock_guard lock(mutex_);
+        measured_[i] = std::move(row);
+      }
+    } catch (const MeasuringStopped&) {  // what is measured stays as it is
+    } catch (...) {
+      next_ = jobs_.size();
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    --at_work_;
+    finished_.notify_all();
+  }
+
+  std::vector<Region> given_;
+  std::vector<Job> jobs_;
+  std::vector<std::optional<PropertyRow>> measured_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> stopped_{false};
+  std::size_t at_work_ = 0;
+  std::exception_ptr failure_;
+  std::mutex mutex_;
+  std::condition_variable finished_;
+  std::vector<std::jthread> helpers_;  // the last member: they end before what they use
+};
+
+Verification::Verification(const VerificationRequest& request) : impl_(std::make_unique<Impl>(request)) {}
+Verification::~Verification() = default;
+bool Verification::wait(const std::function<bool()>& goes_on) { return impl_->wait(goes_on); }
+std::vector<PropertyRow> Verification::rows() { return impl_->rows(); }
+
+std::string verification_json(const std::vector<PropertyRow>& rows, bool interrupted) {
+  if (!interrupted) return property_json(rows);
+  nlohmann::json all = nlohmann::json::parse(property_json(rows));
+  all["status"] = "interrupted";
+  return all.dump(2) + "\n";
+}
+
+}  // namespace hamflow
