@@ -1,8 +1,10 @@
 // hamflow certify: the drift class of the energies that any program has written.
 #include <iostream>
+#include <optional>
 
 #include "commands.hpp"
 #include "guarded.hpp"
+#include "hamflow/core/complaint.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/workflow/certify_log.hpp"
 
