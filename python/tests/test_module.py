@@ -435,5 +435,6 @@ def test_the_examples_of_the_readme(tmp_path, monkeypatch, capsys):
 def test_doctests():
     import doctest
 
-    for module in (sys.modules["hamflow._problem"], sys.modules["hamflow._scenario"], sys.modules["hamflow._simulation"]):
+    for name in ("_certify", "_problem", "_scenario", "_simulation"):
+        module = sys.modules["hamflow." + name]
         assert doctest.testmod(module).failed == 0
