@@ -427,8 +427,9 @@ def test_the_examples_of_the_readme(tmp_path, monkeypatch, capsys):
     text = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text()
     monkeypatch.chdir(tmp_path)
     pathlib.Path("kepler.toml").write_text(re.search(r"```toml\n(# kepler\.toml.*?)```", text, re.S)[1])
+    names = {}
     for block in re.findall(r"```python\n(.*?)```", text, re.S):
-        exec(compile(block, "README.md", "exec"), {})
+        exec(compile(block, "README.md", "exec"), names)
     assert "bounded" in capsys.readouterr().out
 
 
