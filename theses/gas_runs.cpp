@@ -59,7 +59,8 @@ double digits_of(Study& study, const std::string& arithmetic) {
     const Trajectory run =
         study.run(fmt::format("one_and_{}_{}", halvings, arithmetic), scenario_of("one_and_less"),
                   {fmt::format("problem.initial.p=[\"2^(-{})\"]", halvings), "run.arithmetic=" + arithmetic});
-    return run.report.summary.final.q.at(0);
+    const StateAtTime& end = run.report.summary.final;
+    return end.digits.q.empty() ? shortest(end.q.at(0)) : end.digits.q.at(0);
   };
   int moves = 0, stays = 1000;
   const auto where_it_stays = moved_by(stays);

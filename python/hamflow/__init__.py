@@ -60,3 +60,7 @@ def methods(problem: Problem | None = None, /) -> Infos:
 def problems() -> Infos:
     """The problems of the catalogue: name, formula, coordinates, parameters, reference."""
     return Infos(SimpleNamespace(**each) for each in _core.problems())
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

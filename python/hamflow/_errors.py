@@ -48,6 +48,14 @@ class StepFailed(Error):
         return (StepFailed, self._given)
 
 
+def raise_with_partial(raised: BaseException | None, partial: object) -> None:
+    """Raises what Python raised while C++ computed, such as KeyboardInterrupt; its attribute `partial` is what is there."""
+    if raised is None:
+        return
+    raised.partial = partial  # type: ignore[attr-defined]
+    raise raised
+
+
 class FileError(Error, OSError):
     """A file or folder cannot be read or written."""
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import difflib
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core, _html
+from ._errors import Error
 from ._trace import traced
 
 Numbers = npt.NDArray[np.float64]
@@ -69,6 +71,11 @@ class Problem:
             for name, value in (("coordinates", coordinates), ("dimension", dimension), ("parameters", parameters)):
                 if value is not None:
                     self.table[name] = dict(value) if isinstance(value, Mapping) else value
+        elif isinstance(hamiltonian, str) and coordinates is None and dimension is None and hamiltonian.replace("-", "_").isidentifier():
+            near = difflib.get_close_matches(hamiltonian.replace("_", "-"), known, 1)
+            meant = f"; did you mean {near[0]}?" if near else ""
+            raise Error(f"problem: found {hamiltonian!r}; allowed {', '.join(sorted(known - {'formula'}))}, or H as text with "
+                        f"coordinates={meant}")
         else:
             names = list(coordinates) if coordinates is not None else _numbered(dimension, hamiltonian)
             if callable(hamiltonian) and not hasattr(hamiltonian, "free_symbols"):

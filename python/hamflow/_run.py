@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from . import _core, _html
 from ._digits import decimals
-from ._errors import Error, FileError, StepFailed
+from ._errors import Error, FileError, StepFailed, raise_with_partial
 from ._scenario import Scenario, scenario_of
 
 Numbers = npt.NDArray[np.float64]
@@ -36,16 +36,25 @@ def _as_attributes(tree: Any) -> Any:
 class States:
     """Points of a section, bounces or events: t (n,), q (n, d), p (n, d) and what else their table has."""
 
-    def __init__(self, table: Any) -> None:
-        self._table = table
+    def __init__(self, table: Any, prefix: str = "") -> None:
+        self._table, self._prefix = table, prefix
         for name in table.columns:
-            if "/" not in name:
-                setattr(self, name, table[name])
+            short = name.removeprefix(prefix)
+            if "/" not in short:
+                setattr(self, short, table[name])
+
+    def __getitem__(self, name: str) -> Any:
+        return self._table[name if name in self._table else self._prefix + name]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (States, (self._table, self._prefix))
 
     def __len__(self) -> int:
         return len(self._table)
 
     def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
         raise AttributeError(f"no column {name!r}; there are {', '.join(self._table.columns)}")
 
     def __repr__(self) -> str:
@@ -158,7 +167,8 @@ class Run:
         return pandas.DataFrame({name: self[name] for name in names})
 
     def _page(self, kind: str, x: str = "", y: Sequence[str] = (), at: Sequence[float] = ()) -> dict[str, Any]:
-        return dict(_core.page(self.scenario._core, self._tables, kind, x, list(y), [float(time) for time in at]))
+        names = [y] if isinstance(y, str) else list(y)
+        return dict(_core.page(self.scenario._core, self._tables, kind, x, names, [float(time) for time in at]))
 
     def plot(self, kind: str = "", ax: Any = None, *, x: str = "", y: Sequence[str] = (),
              at: Sequence[float] = ()) -> Any:
@@ -192,7 +202,7 @@ class Run:
     def figure(self, kind: str, file: str | os.PathLike[str], *, x: str = "", y: Sequence[str] = (),
                at: Sequence[float] = ()) -> None:
         """Draws the same as the command does, by gnuplot: .svg, .pdf or .png."""
-        more = (x, list(y), [float(time) for time in at])
+        more = (x, [y] if isinstance(y, str) else list(y), [float(time) for time in at])
         if self.folder is not None:
             _core.draw(self.folder, kind, os.fspath(file), *more)
             return
@@ -209,6 +219,15 @@ class Run:
         else:
             _core.run(self.scenario._core, to, "error", None)
         return to
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Run, (self.scenario, self._tables, json.dumps(self.summary), self.folder, self.t.dtype == object))
 
     def __repr__(self) -> str:
         worst = self.summary.get("energy", {}).get("max_relative_error")
@@ -336,17 +355,22 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
     if not certificate:
         wanted = Scenario.from_text(str(wanted), wanted._name)
         wanted.set("run.certificate", False)
+    if digits and wanted._core.arithmetic in ("double", "compensated", "lattice"):
+        raise Error(f"digits: found True in {wanted._core.arithmetic} arithmetic, whose numbers are doubles; allowed with "
+                    "run.arithmetic = \"double-double\", \"quad\" or \"mp(d)\"")
+    if out is None and existing != "error":
+        raise Error(f"existing: found {existing!r} without out=; allowed with a folder")
     folder = None if out is None else Path(out)
-    found = _core.run(wanted._core, folder if folder is not None else "", existing, _progress(progress, wanted.steps))
+    tell = _progress(progress, wanted.steps)
+    found = _core.run(wanted._core, folder if folder is not None else "", existing, tell)
     if folder is not None:
         opened = _core.open_run(folder) if (folder / "run.h5").exists() else found
         result = Run(wanted, opened["tables"], found["json"], folder, digits, found["notes"])
     else:
         result = Run(wanted, found["tables"], found["json"], None, digits, found["notes"])
-    if found["interrupted"]:
-        error: BaseException = KeyboardInterrupt()
-        error.partial = result  # type: ignore[attr-defined]
-        raise error
+    raise_with_partial(found["raised"], result)
+    if tell is not None:
+        tell(int(result.summary.get("steps", 0)))
     if found["file_trouble"]:
         trouble = FileError(found["file_trouble"])
         trouble.partial = result  # type: ignore[attr-defined]

@@ -44,6 +44,12 @@ class Trajectory:
         """The names that [] takes."""
         return ["t", *self.coordinates, *self.momenta, "energy", *(["step"] if "step" in self._table else [])]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Trajectory, (self._table, self.coordinates, self.momenta, self.t.dtype == object))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
     def __getitem__(self, name: str) -> Any:
         if name in self.coordinates:
             return self.q[:, self.coordinates.index(name)]
@@ -98,6 +104,8 @@ class Simulation:
     True
     """
 
+    __slots__ = ("_core", "coordinates", "momenta", "__weakref__")
+
     def __init__(self, problem: Problem | str | dict[str, Any], /, *, method: str | dict[str, Any] = "stv4", dt: float | str,
                  q: Any = None, p: Any = None, v: Any = None, arithmetic: str = "double", threads: int = 1,
                  parameters: dict[str, Any] | None = None) -> None:
@@ -121,7 +129,11 @@ class Simulation:
         scenario = core.scenario
         self.coordinates: list[str] = list(scenario.coordinates)
         self.momenta: list[str] = list(scenario.momenta)
-        self.dt: float = scenario.dt
+
+    @property
+    def dt(self) -> float:
+        """Step size."""
+        return float(self._core.scenario.dt)
 
     def advance(self, steps: int) -> None:
         """Takes `steps` steps; advance(1000) gives the bits of 1000 times advance(1).
@@ -270,7 +282,10 @@ class Simulation:
         self._core.load(saved)
 
     def observe(self, *, every: int = 1) -> Callable[[Callable[[Simulation], Any]], Callable[[Simulation], Any]]:
-        """Decorates a function of the simulation that is called every `every` steps; it may return "stop"."""
+        """Decorates a function of the simulation that is called every `every` steps.
+
+        Where it returns "stop", advance(), integrate() and sample() end at that step; `step` tells where.
+        """
         def decorate(function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
             self._core.watch(every, lambda: function(self))
             return function

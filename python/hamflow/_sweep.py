@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _html
-from ._errors import Error
-from ._run import Progress, progress_of_both
+from ._errors import Error, raise_with_partial
+from ._run import Progress, States, progress_of_both
 from ._scenario import scenario_of
 
 
@@ -20,6 +20,8 @@ class Sweep:
     """The members of a sweep as columns: ens["final/q"], ens["energy/max_error"]."""
 
     def __init__(self, found: Mapping[str, Any]) -> None:
+        self._found = {"members": found["members"], "section": found["section"], "json": found["json"],
+                       "failures": list(found["failures"])}
         self._members, self._section = found["members"], found["section"]
         self.summary: dict[str, Any] = json.loads(found["json"])
         self.failures: list[str] = list(found["failures"])
@@ -35,15 +37,24 @@ class Sweep:
         return list(self._members["member/status"])
 
     @property
-    def section(self) -> Any:
-        """The points of all members' sections: columns section/member, section/t, section/q, section/p."""
-        return self._section
+    def section(self) -> States | None:
+        """The points of all members' sections: member, t, q, p; None without run.section."""
+        return States(self._section, "section/") if self._section.columns else None
 
     def __getitem__(self, name: str) -> Any:
         return self._members[name]
 
     def __len__(self) -> int:
         return len(self._members)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __iter__(self) -> Any:
+        return iter(self.columns)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Sweep, (self._found,))
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with a row for each member."""
@@ -91,8 +102,16 @@ class Sweep:
         x = self[keys[0]]
         ax.set_xlabel(keys[0].removeprefix("varied/"))
         if len(keys) == 1:
-            order = np.argsort(x, kind="stable")
-            ax.plot(x[order], values[order], ".-")
+            words = [name for name in self.columns if name.startswith("varied/") and name not in keys]
+            labels = np.array([", ".join(str(self[name][k]) for name in words) for k in range(len(self))])
+            for label in dict.fromkeys(labels.tolist()):  # a line for each method, say
+                own = np.flatnonzero(labels == label)
+                own = own[np.argsort(x[own], kind="stable")]
+                ax.plot(x[own], values[own], ".-", label=label)
+            if words:
+                ax.legend(title=", ".join(name.removeprefix("varied/") for name in words))
+            if colour.startswith("energy/") and np.nanmin(values, initial=np.inf) > 0:
+                ax.set_yscale("log")
             ax.set_ylabel(colour)
             return ax
         y = self[keys[1]]
@@ -164,7 +183,7 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     ------
     Rejection, FileError
     KeyboardInterrupt, Error
-        The attribute `partial` is the sweep so far: after Ctrl-C, and where workers of the cluster failed.
+        And what `progress` raises. The attribute `partial` is the sweep so far: after Ctrl-C, and where workers of the cluster failed.
 
     Examples
     --------
@@ -181,10 +200,7 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
                         Path(out) if out is not None else "", existing, progress_of_both(progress))
     result = Sweep(found)
-    if found["interrupted"]:
-        error: BaseException = KeyboardInterrupt()
-        error.partial = result  # type: ignore[attr-defined]
-        raise error
+    raise_with_partial(found["raised"], result)
     return result
 
 
@@ -213,7 +229,7 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
     except (KeyboardInterrupt, Exception) as error:  # what is finished is kept
         trouble = error
         client.cancel(futures)
-    result = Sweep(gathered.found(trouble is not None))
+    result = Sweep(gathered.found())
     if trouble is None:
         return result
     if not isinstance(trouble, (KeyboardInterrupt, Error)):
@@ -281,5 +297,8 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
     members = sweep(scenario, varied, zip=True, progress=False)
     bad = [k for k, status in enumerate(members.status) if status != "done"]
     if bad:
-        raise Error(f"member {bad[0]} of {n} ended as {members.status[bad[0]]}; {len(bad)} did not end as done")
+        more = f"; {len(bad)} of {n} members failed" if len(bad) > 1 else ""
+        error = Error(f"member {bad[0]} ended as {members.status[bad[0]]}: {(members.failures or [''])[0]}{more}")
+        error.partial = members  # type: ignore[attr-defined]
+        raise error
     return np.array(members["final/q"]), np.array(members["final/p"])

@@ -6,6 +6,7 @@ import json
 from typing import Any, Sequence
 
 from . import _core, _html
+from ._errors import raise_with_partial
 
 
 class Verification:
@@ -81,8 +82,5 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
         raise TypeError("verify takes methods, or all=True")
     found = _core.verify(names, all, problem or "")
     result = Verification(found)
-    if found["interrupted"]:
-        stopped: BaseException = KeyboardInterrupt()
-        stopped.partial = result  # type: ignore[attr-defined]
-        raise stopped
+    raise_with_partial(found["raised"], result)
     return result

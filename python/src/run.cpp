@@ -14,6 +14,7 @@
 #include "hamflow/workflow/reverse.hpp"
 #include "pages.hpp"
 #include "signals.hpp"
+#include "tables.hpp"
 #include "values.hpp"
 
 namespace py = pybind11;
@@ -54,14 +55,15 @@ py::dict run_in_python(const Scenario& scenario, const std::filesystem::path& fo
   found["file_trouble"] = report.file_trouble;
   found["warnings"] = report.warnings;
   found["notes"] = notes;
-  found["interrupted"] = interrupts.was_interrupted();
+  found["raised"] = interrupts.raised();
   return found;
 }
 
 }  // namespace
 
 void bind_run(py::module_& m) {
-  py::class_<RunTables, std::shared_ptr<RunTables>>(m, "RunTables")
+  py::class_<RunTables, std::shared_ptr<RunTables>> tables_class(m, "RunTables");
+  tables_class
       .def_property_readonly("samples", [](const std::shared_ptr<RunTables>& t) { return part_of(t, t->samples); })
       .def_property_readonly("section", [](const std::shared_ptr<RunTables>& t) { return part_or_none(t, t->section); })
       .def_property_readonly("bounces", [](const std::shared_ptr<RunTables>& t) { return part_or_none(t, t->bounces); })
@@ -70,6 +72,20 @@ void bind_run(py::module_& m) {
         for (Table& event : t->events) events[py::str(event.name())] = part_of(t, event);
         return events;
       });
+  tables_class.def(py::pickle(
+      [](const RunTables& t) {
+        py::list events;
+        for (const Table& event : t.events) events.append(state_of(event));
+        return py::make_tuple(state_of(t.samples), state_of(t.section), state_of(t.bounces), events);
+      },
+      [](const py::tuple& state) {
+        auto t = std::make_shared<RunTables>();
+        t->samples = table_of_state(state[0].cast<py::tuple>());
+        t->section = table_of_state(state[1].cast<py::tuple>());
+        t->bounces = table_of_state(state[2].cast<py::tuple>());
+        for (const py::handle event : state[3]) t->events.push_back(table_of_state(event.cast<py::tuple>()));
+        return t;
+      }));
   m.def("run", &run_in_python, py::arg("scenario"), py::arg("folder"), py::arg("existing"), py::arg("progress"));
   m.def("open_run", [](const std::filesystem::path& run) {
     OpenedRun opened = [&] {

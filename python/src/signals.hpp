@@ -33,6 +33,15 @@ class Interrupts {
     return !raised_;
   }
   bool was_interrupted() const { return raised_ != nullptr; }
+  /// What Python raised; None where nothing was. To be called with the lock.
+  pybind11::object raised() const {
+    if (!raised_) return pybind11::none();
+    try {
+      std::rethrow_exception(raised_);
+    } catch (const pybind11::error_already_set& error) {
+      return error.value();
+    }
+  }
   /// To be called with the lock.
   void rethrow() const {
     if (raised_) std::rethrow_exception(raised_);

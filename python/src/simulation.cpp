@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <thread>
 
 #include "bindings.hpp"
+#include "hamflow/core/hash.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/stop_question.hpp"
@@ -92,7 +94,10 @@ class Watcher final : public Observer {
     seen_ = frame.step;
     const py::gil_scoped_acquire lock;
     const py::object answer = told_();
-    return py::isinstance<py::str>(answer) && answer.cast<std::string>() == "stop" ? Verdict::stop : Verdict::go_on;
+    if (!py::isinstance<py::str>(answer)) return Verdict::go_on;
+    const auto said = answer.cast<std::string>();
+    if (said != "stop") throw Error("observe: the function returned \"" + said + "\"; allowed \"stop\", or nothing");
+    return Verdict::stop;
   }
   void begin(std::int64_t step) { seen_ = step; }
 
@@ -149,17 +154,19 @@ class PySimulation {
     bool is_first_;
   };
 
-  void advance(std::int64_t steps, Observer* more) {
+  /// @return false where an observer has said to stop
+  bool advance(std::int64_t steps, Observer* more) {
     if (steps < 0)
       throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
     if (steps < 100 && has_short_steps() && more == nullptr && watchers_.empty()) {  // over before a signal is due
       const InUse use(*this, false);
       const Outcome reached = simulation_->advance(steps);
       if (is_failure(reached)) raise_failure(*simulation_, reached);
-      return;
+      return true;
     }
     Interrupts interrupts;
     Outcome outcome = Outcome::done;
+    const std::int64_t end = simulation_->step() + steps;
     {
       const InUse use(*this, false);
       std::vector<Observer*> observers;
@@ -171,22 +178,23 @@ class PySimulation {
       const py::gil_scoped_release unlocked;
       const std::function<bool()> goes_on = [&] { return interrupts.go_on(simulation_->step()); };
       const StopQuestion question(goes_on);
-      outcome = run(*simulation_, simulation_->step() + steps, observers,
-                    [&](std::int64_t step) { return interrupts.go_on(step); });
+      outcome = run(*simulation_, end, observers, [&](std::int64_t step) { return interrupts.go_on(step); });
     }
     interrupts.rethrow();
     if (is_failure(outcome)) raise_failure(*simulation_, outcome);
+    return simulation_->step() == end;
   }
 
   std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every, bool digits) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
     const std::int64_t first = simulation_->step();
     Sampler sampler(*scenario_, first, every, first + std::max<std::int64_t>(steps, 0), digits);
-    advance(steps, &sampler);
+    (void)advance(steps, &sampler);
     return std::make_shared<Table>(sampler.take());
   }
 
-  /// The states at given times, by partial steps; the simulation ends at the last step before the last time.
+  /// The states at given times, by partial steps; the simulation ends at the last step before the last time. Where an
+  /// observer has said to stop, those until then.
   std::shared_ptr<Table> sample_at(const std::vector<std::string>& times, bool digits) {
     Sampler sampler(*scenario_, 0, 1, static_cast<std::int64_t>(times.size()), digits);
     const double dt = scenario_->dt;
@@ -199,7 +207,7 @@ class PySimulation {
                     "; allowed times in the order of the motion");
       }
       const double whole = std::floor(behind * (1 + 4e-16) + 1e-12);
-      if (whole >= 1) advance(static_cast<std::int64_t>(whole), nullptr);
+      if (whole >= 1 && !advance(static_cast<std::int64_t>(whole), nullptr)) break;
       const InUse use(*this);
       Frame there;
       const Outcome outcome = simulation_->look_ahead(text, there);
@@ -226,13 +234,23 @@ class PySimulation {
   }
   py::bytes save() const {
     const InUse use(*this);
-    const std::vector<std::byte> bytes = simulation_->save();
+    std::vector<std::byte> bytes = simulation_->save();
+    const std::uint64_t sum = fnv1a(bytes);
+    const auto words = std::as_bytes(std::span(&sum, 1));
+    bytes.insert(bytes.end(), words.begin(), words.end());
     return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }
   void load(const py::bytes& saved) {
     const InUse use(*this, false);
-    const std::string_view bytes = saved;
-    simulation_->restore(std::as_bytes(std::span(bytes.data(), bytes.size())));
+    const std::string_view text = saved;
+    const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+    std::uint64_t sum = 0;
+    if (bytes.size() < sizeof sum)
+      throw Error("saved: found " + std::to_string(bytes.size()) + " bytes; allowed those of save()");
+    const auto content = bytes.first(bytes.size() - sizeof sum);
+    std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
+    if (sum != fnv1a(content)) throw Error("saved: the bytes are damaged; allowed those of save()");
+    simulation_->restore(content);
   }
   void watch(std::int64_t every, py::object told) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
@@ -277,7 +295,7 @@ void bind_simulation(py::module_& m) {
   py::class_<PySimulation>(m, "Simulation")
       .def(py::init<std::shared_ptr<Scenario>>())
       .def_property_readonly("scenario", &PySimulation::shared_scenario)
-      .def("advance", [](PySimulation& self, std::int64_t steps) { self.advance(steps, nullptr); })
+      .def("advance", [](PySimulation& self, std::int64_t steps) { (void)self.advance(steps, nullptr); })
       .def("sample", &PySimulation::sample)
       .def("sample_at", &PySimulation::sample_at)
       .def("negate_momenta", &PySimulation::negate_momenta)

@@ -27,7 +27,7 @@ std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const 
   return sweep;
 }
 
-py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, bool interrupted) {
+py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report) {
   std::shared_ptr<Table> members;
   std::shared_ptr<Table> sections;
   {
@@ -41,8 +41,12 @@ py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, bool in
   found["json"] = report.json;
   found["text"] = report.text;
   found["status"] = report.status;
-  found["failures"] = report.failures;
-  found["interrupted"] = interrupted;
+  py::list failures;
+  for (const MemberFailure& failure : report.summary.failures) {
+    failures.append("member " + std::to_string(failure.member) + ", step " + std::to_string(failure.step) + ": " +
+                    failure.message);
+  }
+  found["failures"] = failures;
   return found;
 }
 
@@ -52,21 +56,25 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
   const Existing what_to_do = existing_named(existing);
   std::unique_ptr<ScenarioSweep> sweep;
   SweepReport report;
-  bool interrupted = false;
+  py::object raised = py::none();
+  std::int64_t total = 0;
   {
     const py::gil_scoped_release unlocked;
     sweep = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads}, folder,
                           what_to_do);
-    const std::int64_t total = sweep->total_steps();
+    total = sweep->total_steps();
     Interrupts asked([&](std::int64_t steps) {
       if (progress) progress(steps, total);
     });
     report = sweep->run([&](std::int64_t steps) { return asked.go_on(steps); });
     const py::gil_scoped_acquire lock;
-    interrupted = asked.was_interrupted();
+    raised = asked.raised();
     asked = Interrupts();
   }
-  return found_of(*sweep, report, interrupted);
+  if (progress && raised.is_none() && report.status == "done") progress(total, total);
+  py::dict found = found_of(*sweep, report);
+  found["raised"] = raised;
+  return found;
 }
 
 py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& varied, bool zip, std::size_t index,
@@ -97,13 +105,13 @@ class GatheredSweep {
     sweep_->take(std::as_bytes(std::span(finished)));
   }
   std::size_t members() const { return sweep_->members().rows(); }
-  py::dict found(bool interrupted) const {
+  py::dict found() const {
     SweepReport report;
     {
       const py::gil_scoped_release unlocked;
       report = sweep_->report();
     }
-    return found_of(*sweep_, report, interrupted);
+    return found_of(*sweep_, report);
   }
 
  private:
@@ -122,7 +130,7 @@ void bind_sweep(py::module_& m) {
                     const std::string&>())
       .def("take", &GatheredSweep::take, py::arg("finished"))
       .def_property_readonly("members", &GatheredSweep::members)
-      .def("found", &GatheredSweep::found, py::arg("interrupted"));
+      .def("found", &GatheredSweep::found);
 }
 
 }  // namespace hamflow::python

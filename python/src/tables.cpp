@@ -26,6 +26,38 @@ py::array view(const Column& column, std::span<const T> values, const py::handle
 
 }  // namespace
 
+py::tuple state_of(const Table& table) {
+  py::list columns;
+  for (const Column& column : table.columns()) {
+    const ColumnInfo& info = column.info();
+    const auto bytes = column.bytes();
+    const std::size_t text_size = info.type == ValueType::text ? column.bytes_of_row() / info.width : 0;
+    columns.append(py::make_tuple(info.name, static_cast<int>(info.type), info.width, info.scalar, info.parts,
+                                  info.meaning, info.unit, text_size,
+                                  py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
+  }
+  return py::make_tuple(table.name(), columns);
+}
+
+Table table_of_state(const py::tuple& state) {
+  Table table;
+  table.rename(state[0].cast<std::string>());
+  for (const py::handle each : state[1]) {
+    const auto fields = each.cast<py::tuple>();
+    Column& column = table.add(ColumnInfo{.name = fields[0].cast<std::string>(),
+                                          .type = static_cast<ValueType>(fields[1].cast<int>()),
+                                          .width = fields[2].cast<std::size_t>(),
+                                          .scalar = fields[3].cast<bool>(),
+                                          .parts = fields[4].cast<std::vector<std::string>>(),
+                                          .meaning = fields[5].cast<std::string>(),
+                                          .unit = fields[6].cast<std::string>(),
+                                          .text_size = fields[7].cast<std::size_t>()});
+    const auto bytes = fields[8].cast<std::string_view>();
+    column.add_bytes(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  }
+  return table;
+}
+
 py::object array_of(const Column& column, const py::handle& owner) {
   switch (column.info().type) {
     case ValueType::number:
@@ -71,7 +103,9 @@ void bind_tables(py::module_& m) {
              about["parts"] = info.parts;
              return about;
            })
-      .def_property_readonly("name", &Table::name);
+      .def_property_readonly("name", &Table::name)
+      .def(
+          py::pickle(&state_of, [](const py::tuple& state) { return std::make_shared<Table>(table_of_state(state)); }));
 }
 
 }  // namespace hamflow::python

@@ -15,4 +15,8 @@ pybind11::object array_of(const Column& column, const pybind11::handle& owner);
 /// A copy of shape (n,).
 pybind11::array_t<double> array_of(const std::vector<double>& numbers);
 
+/// A table for pickle, and back.
+pybind11::tuple state_of(const Table& table);
+Table table_of_state(const pybind11::tuple& state);
+
 }  // namespace hamflow::python

@@ -36,7 +36,7 @@ def test_digits_are_those_of_the_command(tmp_path, arithmetic):
 def test_digits_of_doubles_are_refused():
     for ask in (lambda: hf.run(pendulum(), digits=True),
                 lambda: hf.Simulation("pendulum", q=[1], p=[0], dt=0.1).sample(steps=3, digits=True)):
-        with pytest.raises(hf.Error, match="beyond double"):
+        with pytest.raises(hf.Error, match="double-double|beyond double"):
             ask()
 
 
@@ -144,3 +144,93 @@ def test_doctests():
 
     for name in ("_compare", "_convert", "_run", "_show", "_sweep", "_verify"):
         assert doctest.testmod(importlib.import_module("hamflow." + name)).failed == 0
+
+
+def test_sampling_ends_where_an_observer_says_stop():
+    sim = hf.Simulation("henon-heiles", q=[0, 0.1], p=[0.3, 0], dt=0.05)
+    sim.observe(every=7)(lambda s: "stop")
+    found = sim.sample(at=np.linspace(0.1, 5, 50))
+    assert sim.step == 7 and found.t[-1] <= 0.35 + 0.05
+    alone = hf.Simulation("henon-heiles", q=[0, 0.1], p=[0.3, 0], dt=0.05).sample(at=found.t)
+    assert np.array_equal(found.q, alone.q)
+
+
+def test_an_observer_that_says_something_else():
+    sim = hf.Simulation("henon-heiles", q=[0, 0.1], p=[0.3, 0], dt=0.05)
+    sim.observe(every=7)(lambda s: "stopp")
+    with pytest.raises(hf.Error, match="stopp"):
+        sim.advance(20)
+
+
+def test_attributes_of_a_simulation_are_its_own():
+    sim = hf.Simulation("henon-heiles", q=[0, 0.1], p=[0.3, 0], dt=0.05)
+    for name in ("dt", "t", "steps_typo"):
+        with pytest.raises(AttributeError):
+            setattr(sim, name, 1)
+
+
+def test_damaged_saves_are_refused():
+    sim = hf.Simulation("henon-heiles", q=[0, 0.1], p=[0.3, 0], dt=0.05)
+    saved = sim.save()
+    for k in range(len(saved)):
+        with pytest.raises(hf.Error):
+            sim.load(saved[:k] + bytes([saved[k] ^ 1]) + saved[k + 1:])
+    sim.load(saved)
+
+
+def test_what_progress_raises_is_raised():
+    long = {"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": [0.3, 0]}}, "method": "stv4",
+            "run": {"dt": 0.05, "steps": 10**8, "certificate": False, "record_every": 10**6}}
+    with pytest.raises(ZeroDivisionError) as error:
+        hf.run(long, progress=lambda done, total: 1 / 0)
+    assert error.value.partial.status == "interrupted"
+    with pytest.raises(ZeroDivisionError) as error:
+        hf.sweep(long, {"run.dt": [0.05, 0.1]}, progress=lambda done, total: 1 / 0)
+    assert len(error.value.partial) == 2
+
+
+def test_progress_ends_with_its_total():
+    told = []
+    hf.run({"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": [0.3, 0]}}, "method": "stv4",
+            "run": {"dt": 0.05, "steps": 1000}}, progress=lambda done, total: told.append((done, total)))
+    assert told[-1] == (1000, 1000)
+
+
+def test_members_without_a_start_are_failures():
+    found = hf.sweep({"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": ["+", 0], "energy": 0.1}},
+                      "method": "stv4", "run": {"dt": 0.05, "steps": 10}}, {"problem.initial.q[1]": [0.1, 0.9, -0.9, 0.2]})
+    assert found.status == ["done", "no_start", "no_start", "done"]
+    assert [text.split(",")[0] for text in found.failures] == ["member 1", "member 2"]
+
+
+def test_results_are_pickled():
+    import copy
+    import pickle
+
+    scenario = {"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": [0.3, 0]}}, "method": "stv4",
+                "run": {"dt": 0.05, "steps": 500, "section": {"coordinate": "q1"}, "arithmetic": "quad"}}
+    run = hf.run(scenario)
+    sim = hf.Simulation("henon-heiles", q=[0, 0.1], p=[0.3, 0], dt=0.05)
+    samples = sim.sample(steps=10)
+    ens = hf.sweep(scenario, {"run.dt": [0.05, 0.1]})
+    for restore in (lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy):
+        again = restore(run)
+        assert np.array_equal(again.q, run.q) and again.summary == run.summary and list(again.digits("q")[3]) == list(run.digits("q")[3])
+        assert np.array_equal(again.section.q, run.section.q)
+        assert np.array_equal(restore(samples).p, samples.p)
+        swept = restore(ens)
+        assert np.array_equal(swept["final/q"], ens["final/q"]) and swept.status == ens.status
+        assert np.array_equal(swept.section.q, ens.section.q)
+
+
+def test_nearest_names():
+    with pytest.raises(hf.Error, match="did you mean henon-heiles"):
+        hf.Problem("henon_heiles")
+    with pytest.raises(hf.Error, match="did you mean pendulum"):
+        hf.Problem("pendulun")
+
+
+def test_digits_in_double_are_refused_before_the_run():
+    with pytest.raises(hf.Error, match="double-double"):
+        hf.run({"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": [0.3, 0]}}, "method": "stv4",
+                "run": {"dt": 0.05, "steps": 10**12}}, digits=True)
