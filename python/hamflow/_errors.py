@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class Error(ValueError):
     """A request that is refused. The message names what is wrong and what is allowed."""
@@ -20,7 +22,7 @@ class Rejection(Error):
         self.errors = [tuple(each) for each in errors]
         super().__init__("\n".join(f"{key}: {message}" if key else message for key, message in self.errors))
 
-    def __reduce__(self):  # type: ignore[no-untyped-def]
+    def __reduce__(self) -> tuple[Any, ...]:
         return (Rejection, (self.errors,))
 
 
@@ -44,7 +46,7 @@ class StepFailed(Error):
         super().__init__(f"{message}; {hint}" if hint else message)
         self._given = (message, kind, step, t, hint)
 
-    def __reduce__(self):  # type: ignore[no-untyped-def]
+    def __reduce__(self) -> tuple[Any, ...]:
         return (StepFailed, self._given)
 
 

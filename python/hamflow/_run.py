@@ -126,13 +126,13 @@ class Run:
         return _as_attributes(self.summary.get("lyapunov"))
 
     @property
-    def section(self) -> States | None:
-        """The points of run.section."""
+    def section(self) -> States | Any:  # None is not in the type: who asks for a section knows that there is one
+        """The points of run.section; None without one."""
         return States(self._tables.section) if self._tables.section is not None else None
 
     @property
-    def bounces(self) -> States | None:
-        """The bounces off hard walls that were recorded."""
+    def bounces(self) -> States | Any:
+        """The bounces off hard walls that were recorded; None where there are none."""
         return States(self._tables.bounces) if self._tables.bounces is not None else None
 
     @property

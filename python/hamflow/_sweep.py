@@ -202,11 +202,12 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
     # Several parts for each thread: a part of a worker that dies is run again on another one.
     count = max(1, min(members, 4 * sum(client.nthreads().values())))
     told = progress_of_both(progress)
+    completed: Any = as_completed  # has no types
     futures = client.map(_shard, [text] * count, [varied] * count, [zip] * count, range(count),
                          [count] * count, pure=False)
     trouble: BaseException | None = None
     try:
-        for done, future in enumerate(as_completed(futures), 1):
+        for done, future in enumerate(completed(futures), 1):
             gathered.take(future.result())
             if told is not None:
                 told(members * done // count, members)
