@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from . import _core, _html
-from ._errors import Error
+from ._errors import Error, stopped
 from ._run import Progress, progress_of_both
 from ._scenario import text_of
 
@@ -143,13 +143,9 @@ def compare(scenario: Any, /, *, methods: Sequence[str] | str, dt: Sequence[Any]
                           [_number(each) for each in sizes], Path(out) if out is not None else "", existing,
                           progress_of_both(progress))
     result = Compare(found["report"], found["notes"])
-    if found["interrupted"]:
-        stopped: BaseException = KeyboardInterrupt()
-        stopped.partial = result  # type: ignore[attr-defined]
-        raise stopped
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     if result.status == "failed":
         report = found["report"]
-        failed = Error(f"{report.message}; {report.hint}" if report.hint else report.message)
-        failed.partial = result  # type: ignore[attr-defined]
-        raise failed
+        raise stopped(Error(f"{report.message}; {report.hint}" if report.hint else report.message), result)
     return result

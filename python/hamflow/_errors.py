@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+import reprlib
+from typing import Any, TypeVar
+
+AnyException = TypeVar("AnyException", bound=BaseException)
 
 
 class Error(ValueError):
@@ -55,3 +58,14 @@ class FileError(Error, OSError):
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
+
+
+def shown(found: Any) -> str:
+    """A value in a message: its repr, of which what is long or deep is left out."""
+    return reprlib.repr(found)
+
+
+def stopped(error: AnyException, partial: Any) -> AnyException:
+    """The error that ended a computation early, with what there is as its attribute `partial`."""
+    error.partial = partial  # type: ignore[attr-defined]
+    return error

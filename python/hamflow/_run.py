@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from . import _core, _html
 from ._digits import decimals
-from ._errors import Error, FileError, StepFailed
+from ._errors import Error, FileError, StepFailed, shown, stopped
 from ._scenario import Scenario, scenario_of
 
 Numbers = npt.NDArray[np.float64]
@@ -103,7 +103,7 @@ class Run:
         for place in (name, "observables/" + name, "invariants/" + name):
             if place in self._samples:
                 return self._samples[place]
-        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
+        raise KeyError(f"no column {shown(name)}; there are {', '.join(self.columns)}")
 
     def digits(self, name: str) -> npt.NDArray[Any]:
         """t, q, p or energy with all their digits, as an array of decimal.Decimal.
@@ -111,8 +111,10 @@ class Run:
         Raises
         ------
         Error
-            In double, where the columns have all digits.
+            In double, where the columns have all digits, and of other columns.
         """
+        if name not in ("t", "q", "p", "energy"):
+            raise Error(f"name: found {shown(name)}; allowed t, q, p, energy")
         return decimals(self._samples, name)
 
     @property
@@ -202,10 +204,13 @@ class Run:
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes the folder that `hamflow run` leaves: the run is copied, or carried out once more, with the same bits."""
         to = Path(folder)
-        if to.exists():
+        if os.path.lexists(to):
             raise FileError(f"{to} exists; choose another folder")
         if self.folder is not None:
-            shutil.copytree(self.folder, to)
+            try:
+                shutil.copytree(self.folder, to)
+            except OSError as error:
+                raise FileError(f"{to}: {error}") from error
         else:
             _core.run(self.scenario._core, to, "error", None)
         return to
@@ -343,19 +348,14 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
         result = Run(wanted, opened["tables"], found["json"], folder, digits, found["notes"])
     else:
         result = Run(wanted, found["tables"], found["json"], None, digits, found["notes"])
-    if found["interrupted"]:
-        error: BaseException = KeyboardInterrupt()
-        error.partial = result  # type: ignore[attr-defined]
-        raise error
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     if found["file_trouble"]:
-        trouble = FileError(found["file_trouble"])
-        trouble.partial = result  # type: ignore[attr-defined]
-        raise trouble
+        raise stopped(FileError(found["file_trouble"]), result)
     if result.status == "failed":
         why = result.summary.get("error", {})
-        failed = StepFailed(found["message"], why.get("kind", ""), why.get("step", 0) - 1, why.get("t", 0.0), found["hint"])
-        failed.partial = result  # type: ignore[attr-defined]
-        raise failed
+        raise stopped(StepFailed(found["message"], why.get("kind", ""), why.get("step", 0) - 1, why.get("t", 0.0), found["hint"]),
+                      result)
     return result
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from decimal import Decimal
 from types import SimpleNamespace
 from typing import Any, Callable, Sequence
@@ -11,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._digits import decimals
-from ._errors import Error
+from ._errors import Error, shown
 from ._problem import Problem, _list
 from ._scenario import Scenario
 
@@ -51,7 +52,7 @@ class Trajectory:
             return self.p[:, self.momenta.index(name)]
         if name in ("t", "q", "p", "energy", "step"):
             return getattr(self, name)
-        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
+        raise KeyError(f"no column {shown(name)}; there are {', '.join(self.columns)}")
 
     def __len__(self) -> int:
         return len(self.t)
@@ -118,6 +119,7 @@ class Simulation:
 
     def _begin(self, core: Any) -> None:
         self._core = core
+        self._observers: list[Callable[[Simulation], Any]] = []
         scenario = core.scenario
         self.coordinates: list[str] = list(scenario.coordinates)
         self.momenta: list[str] = list(scenario.momenta)
@@ -145,7 +147,7 @@ class Simulation:
         """
         steps = (t - self.t) / self.dt
         if not np.isfinite(steps):
-            raise Error(f"t: found {t!r}; allowed finite times")
+            raise Error(f"t: found {shown(t)}; allowed finite times")
         whole = round(steps)
         if not abs(steps - whole) <= 1e-9 * max(1.0, abs(steps)):
             raise Error(f"t: found {t!r}, which is no whole number of steps from t = {self.t!r}; the nearest are "
@@ -272,7 +274,15 @@ class Simulation:
     def observe(self, *, every: int = 1) -> Callable[[Callable[[Simulation], Any]], Callable[[Simulation], Any]]:
         """Decorates a function of the simulation that is called every `every` steps; it may return "stop"."""
         def decorate(function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
-            self._core.watch(every, lambda: function(self))
+            # C++ keeps no reference to the function or the simulation, as a cycle through C++ is never freed.
+            itself, place = weakref.ref(self), len(self._observers)
+
+            def told() -> Any:
+                simulation = itself()
+                return simulation._observers[place](simulation) if simulation is not None else None
+
+            self._core.watch(every, told)
+            self._observers.append(function)
             return function
 
         return decorate

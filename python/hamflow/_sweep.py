@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _html
-from ._errors import Error
+from ._errors import Error, shown, stopped
+from ._page import require_axes
 from ._run import Progress, progress_of_both
 from ._scenario import scenario_of
 
@@ -82,11 +83,12 @@ class Sweep:
             raise Error(f"plot: found {len(keys)} varied keys of numbers; allowed one or two")
         if colour not in self.columns or not self._is_number(colour):
             numbers = [name for name in self.columns if self._is_number(name) and name not in keys]
-            raise Error(f"colour: found {colour!r}; allowed {', '.join(numbers)}")
+            raise Error(f"colour: found {shown(colour)}; allowed {', '.join(numbers)}")
         if ax is None:
             import matplotlib.pyplot as plt
 
             _, ax = plt.subplots()
+        require_axes(ax)
         values = np.where(np.array(self.status) == "done", self[colour], np.nan)
         x = self[keys[0]]
         ax.set_xlabel(keys[0].removeprefix("varied/"))
@@ -175,16 +177,18 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     ((3, 1), ['done', 'done', 'done'])
     """
     wanted = scenario_of(scenario)
+    if not isinstance(varied, Mapping):
+        raise TypeError(f"varied: found {type(varied).__name__}; allowed a dict of keys and their values")
+    if client is not None and not hasattr(client, "nthreads"):
+        raise TypeError(f"client: found {type(client).__name__}; allowed a dask.distributed.Client")
     if client is not None:
         return _on_cluster(client, str(wanted), [_varied(key, values) for key, values in varied.items()], zip, out,
                            existing, progress)
     found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
                         Path(out) if out is not None else "", existing, progress_of_both(progress))
     result = Sweep(found)
-    if found["interrupted"]:
-        error: BaseException = KeyboardInterrupt()
-        error.partial = result  # type: ignore[attr-defined]
-        raise error
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     return result
 
 
@@ -214,15 +218,14 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
     except (KeyboardInterrupt, Exception) as error:  # what is finished is kept
         trouble = error
         client.cancel(futures)
-    result = Sweep(gathered.found(trouble is not None))
+    result = Sweep(gathered.found())
     if trouble is None:
         return result
     if not isinstance(trouble, (KeyboardInterrupt, Error)):
         cause = trouble
         trouble = Error(f"the cluster failed: {type(cause).__name__}: {cause}")
         trouble.__cause__ = cause
-    trouble.partial = result  # type: ignore[union-attr]
-    raise trouble
+    raise stopped(trouble, result)
 
 
 def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, *, dt: float | str, steps: int,
@@ -266,6 +269,8 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
     n, d = q0.shape
     varied: dict[str, Any] = {f"problem.initial.q[{i}]": q0[:, i] for i in range(d)}
     varied |= {f"problem.initial.p[{i}]": p0[:, i] for i in range(d)}
+    if parameters is not None and not isinstance(parameters, Mapping):
+        raise TypeError(f"parameters: found {type(parameters).__name__}; allowed a dict of names and values")
     for name, value in (parameters or {}).items():
         path = f"problem.parameters.{name}" if chosen.name == "formula" else f"problem.{name}"
         if np.ndim(value) == 1:

@@ -6,6 +6,7 @@ import json
 from typing import Any, Sequence
 
 from . import _core, _html
+from ._errors import stopped
 
 
 class Verification:
@@ -81,8 +82,6 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
         raise TypeError("verify takes methods, or all=True")
     found = _core.verify(names, all, problem or "")
     result = Verification(found)
-    if found["interrupted"]:
-        stopped: BaseException = KeyboardInterrupt()
-        stopped.partial = result  # type: ignore[attr-defined]
-        raise stopped
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     return result

@@ -54,7 +54,7 @@ py::dict run_in_python(const Scenario& scenario, const std::filesystem::path& fo
   found["file_trouble"] = report.file_trouble;
   found["warnings"] = report.warnings;
   found["notes"] = notes;
-  found["interrupted"] = interrupts.was_interrupted();
+  found["interrupted"] = interrupts.raised();
   return found;
 }
 

@@ -33,6 +33,18 @@ class Interrupts {
     return !raised_;
   }
   bool was_interrupted() const { return raised_ != nullptr; }
+  /// The exception that stopped the computation, a KeyboardInterrupt or what the user's function raised; None without
+  /// one. To be called with the lock.
+  pybind11::object raised() const {
+    try {
+      rethrow();
+    } catch (const pybind11::error_already_set& error) {
+      pybind11::object value = error.value();
+      if (error.trace()) value.attr("__traceback__") = error.trace();
+      return value;
+    }
+    return pybind11::none();
+  }
   /// To be called with the lock.
   void rethrow() const {
     if (raised_) std::rethrow_exception(raised_);

@@ -48,12 +48,18 @@ class Sampler final : public Observer {
       info.text_size = longest;
       table_.add(std::move(info));
     }
-    for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>((last - first) / every + 2));
+    const std::int64_t samples = (last - first) / every + 1;
+    try {
+      for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>(samples) + 1);
+    } catch (const std::exception&) {  // no memory, or no vector has this length
+      throw Error("steps, every: found " + std::to_string(samples) +
+                  " samples, for which there is no memory; allowed fewer steps, or a larger every");
+    }
   }
   std::int64_t next_due(std::int64_t step) const override {
     if (step <= first_) return first_;
-    const std::int64_t next = first_ + (step - first_ + every_ - 1) / every_ * every_;
-    return next <= last_ ? next : never;
+    const std::int64_t samples = (step - first_ - 1) / every_ + 1;  // no sum of steps may overflow
+    return samples <= (last_ - first_) / every_ ? first_ + samples * every_ : never;
   }
   Verdict observe(const Frame& frame) override {
     std::vector<Column>& columns = table_.columns();
@@ -85,8 +91,8 @@ class Watcher final : public Observer {
  public:
   Watcher(std::int64_t every, py::object told) : every_(every), told_(std::move(told)) {}
   std::int64_t next_due(std::int64_t step) const override {
-    step = std::max(step, seen_ + 1);
-    return (step + every_ - 1) / every_ * every_;
+    const std::int64_t calls = (std::max(step, seen_ + 1) - 1) / every_ + 1;  // no sum of steps may overflow
+    return calls <= never / every_ ? calls * every_ : never;
   }
   Verdict observe(const Frame& frame) override {
     seen_ = frame.step;
@@ -150,8 +156,7 @@ class PySimulation {
   };
 
   void advance(std::int64_t steps, Observer* more) {
-    if (steps < 0)
-      throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
+    require_steps(steps);
     if (steps < 100 && has_short_steps() && more == nullptr && watchers_.empty()) {  // over before a signal is due
       const InUse use(*this, false);
       const Outcome reached = simulation_->advance(steps);
@@ -180,8 +185,9 @@ class PySimulation {
 
   std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every, bool digits) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
+    require_steps(steps);
     const std::int64_t first = simulation_->step();
-    Sampler sampler(*scenario_, first, every, first + std::max<std::int64_t>(steps, 0), digits);
+    Sampler sampler(*scenario_, first, every, first + steps, digits);
     advance(steps, &sampler);
     return std::make_shared<Table>(sampler.take());
   }
@@ -240,6 +246,10 @@ class PySimulation {
   }
 
  private:
+  static void require_steps(std::int64_t steps) {
+    if (steps >= 0 && steps <= std::int64_t{1} << 53) return;
+    throw Error("steps: found " + std::to_string(steps) + "; allowed from 0 to 2^53; reverse() turns the motion round");
+  }
   /// Whether 100 steps take no more than some milliseconds.
   bool has_short_steps() const {
     return scenario_->start_q.size() <= 32 && digits_beyond_double(scenario_->request.arithmetic) == 0;

@@ -27,7 +27,7 @@ std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const 
   return sweep;
 }
 
-py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, bool interrupted) {
+py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, const py::object& interrupted) {
   std::shared_ptr<Table> members;
   std::shared_ptr<Table> sections;
   {
@@ -52,7 +52,7 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
   const Existing what_to_do = existing_named(existing);
   std::unique_ptr<ScenarioSweep> sweep;
   SweepReport report;
-  bool interrupted = false;
+  py::object interrupted = py::none();
   {
     const py::gil_scoped_release unlocked;
     sweep = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads}, folder,
@@ -63,7 +63,7 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
     });
     report = sweep->run([&](std::int64_t steps) { return asked.go_on(steps); });
     const py::gil_scoped_acquire lock;
-    interrupted = asked.was_interrupted();
+    interrupted = asked.raised();
     asked = Interrupts();
   }
   return found_of(*sweep, report, interrupted);
@@ -97,13 +97,13 @@ class GatheredSweep {
     sweep_->take(std::as_bytes(std::span(finished)));
   }
   std::size_t members() const { return sweep_->members().rows(); }
-  py::dict found(bool interrupted) const {
+  py::dict found() const {
     SweepReport report;
     {
       const py::gil_scoped_release unlocked;
       report = sweep_->report();
     }
-    return found_of(*sweep_, report, interrupted);
+    return found_of(*sweep_, report, py::none());
   }
 
  private:
@@ -122,7 +122,7 @@ void bind_sweep(py::module_& m) {
                     const std::string&>())
       .def("take", &GatheredSweep::take, py::arg("finished"))
       .def_property_readonly("members", &GatheredSweep::members)
-      .def("found", &GatheredSweep::found, py::arg("interrupted"));
+      .def("found", &GatheredSweep::found);
 }
 
 }  // namespace hamflow::python
