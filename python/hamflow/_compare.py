@@ -7,7 +7,7 @@ import os
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, NoReturn, Sequence
 
 from . import _core, _html
 from ._errors import Error, stopped
@@ -76,6 +76,9 @@ class Compare:
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Compare cannot be pickled, as its figures are memory of C++; pass its rows, or its summary")
 
     def __repr__(self) -> str:
         methods = dict.fromkeys(row["method"] for row in self.rows)

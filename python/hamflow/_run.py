@@ -10,7 +10,7 @@ import tempfile
 import time
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, NoReturn, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -200,6 +200,9 @@ class Run:
             return
         with tempfile.TemporaryDirectory() as place:
             _core.draw(self.save(Path(place) / "a.run"), kind, os.fspath(file), *more)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Run cannot be pickled, as its columns are memory of C++; save() it and open() its folder there, or pass its arrays")
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes the folder that `hamflow run` leaves: the run is copied, or carried out once more, with the same bits."""

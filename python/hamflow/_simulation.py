@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from decimal import Decimal
 from types import SimpleNamespace
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, NoReturn, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -62,6 +62,9 @@ class Trajectory:
         import pandas
 
         return pandas.DataFrame({name: self[name] for name in self.columns})
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Trajectory cannot be pickled, as its columns are memory of C++; pass to_pandas() of it, or its arrays")
 
     def __repr__(self) -> str:
         span = f"t = {self.t[0]:g} .. {self.t[-1]:g}" if len(self) else "empty"

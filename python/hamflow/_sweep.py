@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Mapping, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -119,6 +119,9 @@ class Sweep:
         rows = ([self[name][k] for name in names] for k in range(min(len(self), shown)))
         more = f"<p>... {len(self) - shown} more</p>" if len(self) > shown else ""
         return _html.table(names, rows) + more
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Sweep cannot be pickled, as its columns are memory of C++; pass to_pandas() of it, or its arrays")
 
     def __repr__(self) -> str:
         return f"<hamflow.Sweep {len(self)} members, {self.summary['status']}>"
