@@ -183,6 +183,18 @@ class PySimulation {
     if (is_failure(outcome)) raise_failure(*simulation_, outcome);
   }
 
+  /// Seconds of `calls` times `steps` steps without Python, for bench/python_bench.py.
+  double seconds_without_python(std::int64_t steps, std::int64_t calls) {
+    require_steps(steps);
+    const InUse use(*this, false);
+    const py::gil_scoped_release unlocked;
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::int64_t k = 0; k < calls; ++k) {
+      if (const Outcome reached = simulation_->advance(steps); is_failure(reached)) throw Error(std::string(message(reached)));
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
   std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every, bool digits) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
     require_steps(steps);
@@ -288,6 +300,7 @@ void bind_simulation(py::module_& m) {
       .def(py::init<std::shared_ptr<Scenario>>())
       .def_property_readonly("scenario", &PySimulation::shared_scenario)
       .def("advance", [](PySimulation& self, std::int64_t steps) { self.advance(steps, nullptr); })
+      .def("seconds_without_python", &PySimulation::seconds_without_python)
       .def("sample", &PySimulation::sample)
       .def("sample_at", &PySimulation::sample_at)
       .def("negate_momenta", &PySimulation::negate_momenta)
