@@ -71,14 +71,15 @@ def advance_one(rounds):
 
 def propagate(rounds):
     n, steps = 100_000, 100
-    q0 = np.stack([np.linspace(-0.2, 0.2, n), np.full(n, 0.1)], axis=1)
-    p0 = np.tile([0.1, 0.05], (n, 1))
-    text = str(hf.Scenario(problem=hf.Problem("henon-heiles").at(q=[0, 0.1], p=[0.1, 0.05]), method="stv4",
-                           run={"dt": 0.05, "steps": steps, "certificate": False}))
+    ranges = {"q[0]": (-0.2, 0.2), "q[1]": (0.1, 0.2), "p[0]": (-0.1, 0.1), "p[1]": (0.05, 0.1)}
+    q0, p0 = (np.stack([np.linspace(*ends, n) for key, ends in ranges.items() if key[0] == name], axis=1) for name in "qp")
     file = tempfile.NamedTemporaryFile("w", suffix=".toml")
-    file.write(text)
+    file.write(str(hf.Scenario(problem=hf.Problem("henon-heiles").at(q=[0, 0], p=[0, 0]), method="stv4",
+                               run={"dt": 0.05, "steps": steps, "certificate": False})))
     file.flush()
-    command = [HAMFLOW, "sweep", file.name, "--out", "none", "--quiet", "--json", "--vary", f"problem.initial.q[0]=-0.2:0.2:{n}"]
+    command = [HAMFLOW, "sweep", file.name, "--zip", "--out", "none", "--quiet", "--json"]
+    for key, (low, high) in ranges.items():
+        command += ["--vary", f"problem.initial.{key}={low}:{high}:{n}"]
 
     found = paired(rounds, lambda: seconds(lambda: hf.propagate("henon-heiles", "stv4", q0, p0, dt=0.05, steps=steps)),
                    lambda: seconds(lambda: subprocess.run(command, stdout=subprocess.DEVNULL, check=True)))

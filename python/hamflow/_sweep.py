@@ -130,6 +130,8 @@ class Sweep:
 def _varied(key: str, values: Any) -> str:
     if isinstance(values, str):
         return f"{key}={values}"
+    if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.ndim == 1 and values.size:
+        return str(_core.varied_text(key, values))
     items = values.tolist() if isinstance(values, np.ndarray) else list(values)
     if not items:
         raise Error(f"{key}: found no values; allowed at least one")
@@ -288,7 +290,7 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
 
     scenario = Scenario(problem=table, method=method, run={"dt": dt, "steps": steps, "certificate": False})
     members = sweep(scenario, varied, zip=True, progress=False)
-    bad = [k for k, status in enumerate(members.status) if status != "done"]
-    if bad:
+    if members.summary["done"] != n:
+        bad = [k for k, status in enumerate(members.status) if status != "done"]
         raise Error(f"member {bad[0]} of {n} ended as {members.status[bad[0]]}; {len(bad)} did not end as done")
     return np.array(members["final/q"]), np.array(members["final/p"])

@@ -190,7 +190,8 @@ class PySimulation {
     const py::gil_scoped_release unlocked;
     const auto begin = std::chrono::steady_clock::now();
     for (std::int64_t k = 0; k < calls; ++k) {
-      if (const Outcome reached = simulation_->advance(steps); is_failure(reached)) throw Error(std::string(message(reached)));
+      if (const Outcome reached = simulation_->advance(steps); is_failure(reached))
+        throw Error(std::string(message(reached)));
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }

@@ -2,11 +2,14 @@
 #include "hamflow/workflow/sweep.hpp"
 
 #include <pybind11/functional.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/text.hpp"
 #include "signals.hpp"
 #include "values.hpp"
 
@@ -69,6 +72,18 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
   return found_of(*sweep, report, interrupted);
 }
 
+/// "KEY=x1,x2,...": a key and its values, as the command takes them, without an object of Python for each.
+std::string varied_text(const std::string& key, const py::array_t<double, py::array::c_style>& values) {
+  if (values.ndim() != 1) {
+    throw Error(key + ": found an array with " + std::to_string(values.ndim()) + " dimensions; allowed one");
+  }
+  const std::span<const double> numbers(values.data(), static_cast<std::size_t>(values.size()));
+  const py::gil_scoped_release unlocked;
+  return key + "=" +
+         joined(
+             numbers, [](double x) { return shortest(x); }, ",");
+}
+
 py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& varied, bool zip, std::size_t index,
                       std::size_t count) {
   std::vector<std::byte> finished;
@@ -115,6 +130,7 @@ class GatheredSweep {
 void bind_sweep(py::module_& m) {
   m.def("sweep", &sweep_in_python, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("threads"),
         py::arg("folder"), py::arg("existing"), py::arg("progress"));
+  m.def("varied_text", &varied_text, py::arg("key"), py::arg("values"));
   m.def("sweep_shard", &sweep_shard, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("index"),
         py::arg("count"));
   py::class_<GatheredSweep>(m, "GatheredSweep")
