@@ -80,8 +80,8 @@ def test_a_cluster_that_fails_leaves_what_is_done(client, monkeypatch):
             taken.append(finished)
             self.real.take(finished)
 
-        def found(self, interrupted):
-            return self.real.found(interrupted)
+        def found(self):
+            return self.real.found()
 
     monkeypatch.setattr(own._core, "GatheredSweep", Fails)
     with pytest.raises(hf.Error, match="the cluster failed: RuntimeError: the network is gone") as error:
