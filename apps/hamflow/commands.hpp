@@ -61,6 +61,15 @@ struct VerifyOptions {
 /// 1: a claim differs from its measurement
 int verify_command(const VerifyOptions& options);
 
+struct CertifyOptions {
+  std::string file;    // csv, columns, log.lammps, HDF5
+  std::string time;    // a column, by name or number; of HDF5 the path of a dataset
+  std::string energy;  // likewise
+  std::string scale;   // a number; empty: the size of the first energy
+  bool json = false;
+};
+int certify_command(const CertifyOptions& options);
+
 struct NewOptions {
   std::string problem;
   std::map<std::string, std::string> variant;  // e.g. potential = kepler; empty: not given

@@ -162,6 +162,33 @@ int main(int argc, char** argv) {
   verify_command->add_flag("--json", verify.json, "print JSON");
   verify_command->callback([&] { status = hamflow::app::verify_command(verify); });
 
+  CertifyOptions certify;
+  CLI::App* certify_command =
+      add(app, "certify", "Judge the energies in a log of any program: bounded, random walk, linear or undecided",
+          "  hamflow certify energy.csv --time t --energy E\n  hamflow certify columns.txt --time 1 --energy 4\n"
+          "  hamflow certify log.lammps --time Step --energy TotEng\n"
+          "  hamflow certify run.h5 --time samples/t --energy samples/e:2 --scale 0.5 --json\n");
+  certify_command
+      ->add_option(
+          "file", certify.file,
+          "columns with commas, semicolons or blanks between, with or without names; a log of LAMMPS, of whose "
+          "thermo tables the last one is read; or HDF5")
+      ->required()
+      ->type_name("FILE");
+  const char* const column =
+      "by its name, or its number from 1; of HDF5 the path of a dataset, PATH:2 for its second column";
+  certify_command->add_option("--time", certify.time, std::string("the column of the times, ") + column)
+      ->required()
+      ->type_name("COLUMN");
+  certify_command->add_option("--energy", certify.energy, "the column of the energies, likewise")
+      ->required()
+      ->type_name("COLUMN");
+  certify_command
+      ->add_option("--scale", certify.scale, "the energy that the error is a part of [the size of the first energy]")
+      ->type_name("X");
+  certify_command->add_flag("--json", certify.json, "print JSON, and nothing else, on stdout");
+  certify_command->callback([&] { status = hamflow::app::certify_command(certify); });
+
   ReverseOptions reverse;
   CLI::App* reverse_command =
       add(app, "reverse", "Forward, negate the momenta, forward again, negate: what came back",

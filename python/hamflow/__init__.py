@@ -18,6 +18,7 @@ from typing import Any
 
 from . import _core
 from . import _html
+from ._certify import LogCertificate, StepCertificate, certify, certify_step
 from ._compare import Compare, compare
 from ._convert import convert
 from ._errors import Error, FileError, Rejection, StepFailed
@@ -32,10 +33,11 @@ from ._verify import Verification, verify
 
 __version__: str = _core.version
 
-__all__ = ["Compare", "Error", "FileError", "Problem", "Rejection", "Reversal", "Run", "Scenario", "Shown", "Simulation",
-           "States", "StepFailed", "Sweep", "Trajectory", "Verification", "acos", "asin", "atan", "atan2", "compare",
-           "convert", "cos", "cosh", "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run", "show",
-           "sin", "sinh", "sqrt", "sweep", "tan", "tanh", "verify"]
+__all__ = ["Compare", "Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario",
+           "Shown", "Simulation", "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "Verification",
+           "acos", "asin", "atan", "atan2", "certify", "certify_step", "compare", "convert", "cos", "cosh", "exp",
+           "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "sweep",
+           "tan", "tanh", "verify"]
 
 
 class Infos(list):  # type: ignore[type-arg]

@@ -15,5 +15,6 @@ void bind_compare(pybind11::module_& m);
 void bind_verify(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweep(pybind11::module_& m);
+void bind_certify(pybind11::module_& m);
 
 }  // namespace hamflow::python

@@ -421,35 +421,21 @@ def test_reprs_are_one_line():
         assert "\n" not in repr(each) and len(repr(each)) > 10
 
 
-EXAMPLES = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples" / "python").glob("*.py"))
-
-
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda file: file.stem)
-def test_examples_make_their_figure(example, tmp_path):
-    module = str(pathlib.Path(hf.__file__).resolve().parents[1])
-    done = subprocess.run([sys.executable, str(example)], cwd=tmp_path, capture_output=True, text=True,
-                          env=os.environ | {"PYTHONPATH": module})
-    assert done.returncode == 0, done.stderr
-    assert (tmp_path / (example.stem + ".png")).stat().st_size > 5000
-
-
-def test_there_are_examples():
-    assert len(EXAMPLES) >= 5
-
-
 def test_the_examples_of_the_readme(tmp_path, monkeypatch, capsys):
     import re
 
     text = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text()
     monkeypatch.chdir(tmp_path)
     pathlib.Path("kepler.toml").write_text(re.search(r"```toml\n(# kepler\.toml.*?)```", text, re.S)[1])
+    names = {}
     for block in re.findall(r"```python\n(.*?)```", text, re.S):
-        exec(compile(block, "README.md", "exec"), {})
-    assert len(capsys.readouterr().out.splitlines()) == 3
+        exec(compile(block, "README.md", "exec"), names)
+    assert "bounded" in capsys.readouterr().out
 
 
 def test_doctests():
     import doctest
 
-    for module in (sys.modules["hamflow._problem"], sys.modules["hamflow._scenario"], sys.modules["hamflow._simulation"]):
+    for name in ("_certify", "_problem", "_scenario", "_simulation"):
+        module = sys.modules["hamflow." + name]
         assert doctest.testmod(module).failed == 0

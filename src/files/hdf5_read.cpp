@@ -74,6 +74,11 @@ Hdf5Handle open_to_read(const std::filesystem::path& path) {
   return {file, H5Fclose, "open " + path.string()};
 }
 
+Hdf5Handle open_foreign_to_read(const std::filesystem::path& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  return file < 0 ? open_to_read(path) : Hdf5Handle(file, H5Fclose, "open " + path.string());
+}
+
 bool has_object(hid_t file, const std::string& path) {
   for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1)) {
     if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;

@@ -20,6 +20,12 @@ void silence_hdf5();
 /// a few hundredths of a second each. @throws FileError
 Hdf5Handle open_to_read(const std::filesystem::path& path);
 
+/// Opens a file of any program. Where nobody writes it the library checks every address against the end of the file,
+/// which it cannot do beside a writer: in a damaged file of the older formats it would read gigabytes that are not
+/// there.
+/// @throws FileError
+Hdf5Handle open_foreign_to_read(const std::filesystem::path& path);
+
 /// Whether every link of the path is there and leads to an object.
 bool has_object(hid_t file, const std::string& path);
 

@@ -72,6 +72,8 @@ class Sweep::Worker {
       run_alone(task.group->members[task.first]);
     } else {
       run_in_lanes(task);
+      // Members that differ in what a block has in common, such as the position of a wall, are groups of their own.
+      if (task.count == task.group->members.size()) blocks_.erase(task.group);
     }
   }
 

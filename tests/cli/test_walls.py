@@ -8,7 +8,7 @@ import pathlib
 import subprocess
 import unittest
 
-from command import EXAMPLES, CommandCase
+from command import EXAMPLES, HAMFLOW, CommandCase
 
 COMPARE = os.environ["COMPARE_RUNS"]
 DATA = pathlib.Path(__file__).parents[1] / "data"
@@ -66,6 +66,21 @@ class WallCase(CommandCase):
 
 
 class Walls(WallCase):
+    def test_a_sweep_over_a_wall_keeps_no_problem_for_each_member(self):
+        """Each is a problem of its own, of some 25 kB, and its block takes as much: a row takes 2 kB."""
+        self.write("wall.toml", "[problem]\nname='pendulum'\ninitial={q=[0.1], p=[1]}\n"
+                   "walls=[{coordinate='q', max=1}]\n[method]\nname='verlet'\n[run]\ndt=0.05\nsteps=5\n")
+
+        def peak(members):
+            process = subprocess.Popen([HAMFLOW, "sweep", "wall.toml", "--vary", f"problem.walls[0].max=0.5:1.5:{members}",
+                                        "--threads", "1", "--out", "none", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL)
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, 0)
+            return used.ru_maxrss * 1024
+
+        self.assertLess((peak(3000) - peak(500)) / 2500, 12_000)
+
     def test_the_motion_itself(self):
         """Against Taylor series with located bounces, in 40 digits (tools/tube_reference.py)."""
         exact = json.loads((DATA / "t_tube_bounces.json").read_text())

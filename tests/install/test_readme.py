@@ -1,4 +1,5 @@
-"""README by copy and paste: its files and commands, in the order in which they stand, in an empty folder with hamflow installed."""
+"""README and docs/library.md by copy and paste: their files and commands, in the order in which they stand, in an empty folder with
+hamflow installed."""
 
 import os
 import re
@@ -8,7 +9,7 @@ import unittest
 
 from documents import BUILD, PREFIX, ROOT, WORK, blocks_of
 
-README = ROOT / "README.md"
+DOCUMENTS = {ROOT / "README.md": 9, ROOT / "docs" / "library.md": 3}  # and how many commands they have at least
 FOLDER = WORK / "readme"
 
 
@@ -23,8 +24,12 @@ class Readme(unittest.TestCase):
         empty.mkdir()
         tasks = subprocess.run(["./dev", "help"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
         environment = {**os.environ, "HOME": str(home), "PATH": f"{PREFIX / 'bin'}:{os.environ['PATH']}"}
+        for document, least in DOCUMENTS.items():
+            self.assertGreaterEqual(self.commands_run(document, empty, environment, tasks), least, document)
+
+    def commands_run(self, document, empty, environment, tasks):
         ran = 0
-        for block in blocks_of(README):
+        for block in blocks_of(document):
             if block.names:
                 (empty / block.names).write_text(block.text)
             if block.language != "sh":
@@ -40,14 +45,15 @@ class Readme(unittest.TestCase):
                     expected = re.search(r"# exit (\d+)", command)
                     self.assertEqual(done.returncode, int(expected[1]) if expected else 0, done.stdout[-2000:] + done.stderr[-2000:])
                     ran += 1
-        self.assertGreater(ran, 10)
+        return ran
 
     def test_nothing_escapes(self):
         """Commands stand in blocks of sh, where they are run, and links name files that are there."""
-        text = re.sub(r"(?ms)^```.*?^```$", "", README.read_text())
-        self.assertNotRegex(text, r"(?m)^    \S")
-        for link in re.findall(r"\]\((?!http)([^)#]+)", text) + re.findall(r'(?:src|href)="(?!http)([^"#]+)"', text):
-            self.assertTrue((ROOT / link).exists(), link)
+        for document in DOCUMENTS:
+            text = re.sub(r"(?ms)^```.*?^```$", "", document.read_text())
+            self.assertNotRegex(text, r"(?m)^    \S")
+            for link in re.findall(r"\]\((?!http)([^)#]+)", text) + re.findall(r'(?:src|href)="(?!http)([^"#]+)"', text):
+                self.assertTrue((document.parent / link).exists(), link)
 
 
 if __name__ == "__main__":

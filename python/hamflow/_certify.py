@@ -1,0 +1,234 @@
+"""Energies and integrators of other programs."""
+
+from __future__ import annotations
+
+import difflib
+import operator
+from typing import Any, Callable, Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import Error
+from ._problem import Problem
+from ._scenario import Scenario
+
+Numbers = npt.NDArray[np.float64]
+Step = Callable[[Numbers, Numbers, float], Any]
+
+_step_problems = {
+    "harmonic": {"name": "harmonic"},
+    "kepler": {"name": "central-force", "potential": "kepler"},
+    "henon-heiles": {"name": "henon-heiles"},
+    "pendulum": {"name": "pendulum"},
+}
+
+
+class LogCertificate:
+    """What the energies of a log show.
+
+    Attributes
+    ----------
+    drift : str
+        "bounded", "random walk", "linear" or "undecided", as in the certificate of a run.
+    energy_level : float or None
+        The largest abs(E - E[0])/scale; None where the scale is unknown.
+    growth_exponent : float or None
+        c in "the error grows like t^c"; None below 33 samples.
+    reason : str
+        For the class, or for having none.
+    samples : int
+    periods : float or None
+        Oscillations seen in the energy, at most one for every two of 256 blocks; None: none was seen.
+    scale : float or None
+        The one that was given, else abs(E[0]); None where E[0] is 0.
+    """
+
+    def __init__(self, found: Mapping[str, Any]) -> None:
+        self.drift: str = found["drift"]
+        self.energy_level: float | None = found["energy_level"]
+        self.growth_exponent: float | None = found["growth_exponent"]
+        self.reason: str = found["reason"]
+        self.samples: int = found["samples"]
+        self.periods: float | None = found["periods"]
+        self.scale: float | None = found["scale"]
+
+    def __repr__(self) -> str:
+        level = "unknown" if self.energy_level is None else f"{self.energy_level:.2g}"
+        return f"<hamflow.LogCertificate {self.drift}, energy error {level}: {self.reason}>"
+
+
+def _column(x: npt.ArrayLike, name: str) -> Numbers:
+    array = np.asarray(x)
+    if array.ndim != 1 or array.dtype.kind not in "fiub":
+        if array.ndim == 1 and array.dtype.kind == "O":  # Decimal, Fraction
+            try:
+                return np.array([float(each) for each in array])
+            except (TypeError, ValueError):
+                pass
+        raise Error(f"{name}: found {array.dtype} of shape {array.shape}; allowed numbers of shape (n,)")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None) -> LogCertificate:
+    """Judges the energies that any program has recorded, by the rules of a run's certificate.
+
+    Parameters
+    ----------
+    t : array_like, shape (n,)
+        Times, which rise strictly. Where they are not equidistant the log is cut into parts of equal duration.
+    energy : array_like, shape (n,)
+        The energies at these times, in any unit.
+    scale : float, optional
+        The energy that the error is a part of. Default: abs(energy[0]).
+
+    Returns
+    -------
+    LogCertificate
+        drift, energy_level, growth_exponent, reason. A log has no coordinates, so that oscillations are those of the
+        energy itself; where they do not carry a class, `drift` is "undecided" and `reason` says why. A class needs 33
+        samples.
+
+    Raises
+    ------
+    Error
+        For NaN and infinite numbers, times that do not rise, different lengths, fewer than two samples, a scale that
+        is not positive.
+
+    Notes
+    -----
+    The tests and their limits are those of `hamflow run`; see "Certificates" in docs/design.md.
+
+    Examples
+    --------
+    >>> import hamflow as hf, numpy as np
+    >>> t = np.linspace(0, 500, 5001)
+    >>> hf.certify(t, -0.5 + 1e-6*np.sin(3*t)).drift
+    'bounded'
+    >>> hf.certify(t, -0.5 + 1e-6*np.sin(3*t) + 1e-7*t).drift
+    'linear'
+    """
+    if scale is not None and (isinstance(scale, (bool, str)) or not np.isscalar(scale)):
+        raise Error(f"scale: found {scale!r}; allowed a positive number")
+    return LogCertificate(_core.certify_log(_column(t, "t"), _column(energy, "energy"), scale))
+
+
+class StepCertificate:
+    """What a step was measured to do on a problem.
+
+    Attributes
+    ----------
+    order : float
+        As measured; inf where every step is exact to rounding, nan where no order could be measured.
+    symplectic, symmetric : True, False or None
+        None: undecided.
+    preserves : dict
+        {NAME: True, False or None}, for "energy" and every invariant of the problem.
+    agrees : True, False or None
+        Whether every claim that was made holds; False where one is refuted; None where one is undecided.
+    reason : str
+        What refutes a claim, or leaves a property undecided.
+    """
+
+    def __init__(self, found: Mapping[str, Any]) -> None:
+        self.order: float = float("nan") if found["order"] is None else found["order"]
+        self.symplectic: bool | None = found["symplectic"]
+        self.symmetric: bool | None = found["symmetric"]
+        self.preserves: dict[str, bool | None] = dict(found["preserves"])
+        self.agrees: bool | None = found["agrees"]
+        self.reason: str = found["reason"]
+
+    def __repr__(self) -> str:
+        return (f"<hamflow.StepCertificate order {self.order:.2f}, symplectic {self.symplectic}, "
+                f"symmetric {self.symmetric}, preserves {self.preserves}, agrees {self.agrees}>")
+
+
+def _claim(value: bool | None, name: str) -> bool | None:
+    if value is None or isinstance(value, (bool, np.bool_)):
+        return None if value is None else bool(value)
+    raise Error(f"{name}: found {value!r}; allowed True, False or None")
+
+
+def _step_problem(problem: Any) -> Any:
+    if isinstance(problem, str):
+        if problem not in _step_problems:
+            near = difflib.get_close_matches(problem, _step_problems, 1)
+            meant = f"; did you mean {near[0]}?" if near else ""
+            raise Error(f"problem: found {problem!r}; allowed {', '.join(_step_problems)}, or a hamflow.Problem{meant}")
+        problem = _step_problems[problem]
+    table = problem.table if isinstance(problem, Problem) else problem
+    if not isinstance(table, Mapping):
+        raise Error(f"problem: found {type(problem).__name__}; allowed {', '.join(_step_problems)}, or a hamflow.Problem")
+    if any(key in table for key in ("initial", "orbit", "case", "bodies")):
+        return Scenario(problem=table, method="rk4", run={"dt": 0.001, "steps": 0})._core
+    return _core.Problem(dict(table))
+
+
+def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: int | None = None,
+                 symplectic: bool | None = None, symmetric: bool | None = None,
+                 preserves: str | Sequence[str] = ()) -> StepCertificate:
+    """Measures one step of any integrator: order, symplecticity, time symmetry and invariants.
+
+    Parameters
+    ----------
+    step : callable
+        step(q, p, h) -> (q, p), or a function that changes its arguments in place and returns None. q and p are arrays
+        of float64 and shape (d,), h is a float, also a negative one. The same arguments have to give the same bits.
+    problem : str, Problem, or dict from Problem.at
+        The problem whose forces the step has in it, with all parameters at their defaults for a name:
+        "harmonic", H = (p^2 + q^2)/2; "kepler", H = (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2); "henon-heiles";
+        "pendulum", H = p^2/2 - cos q. A Problem without a start is measured about a state that the catalogue declares
+        for it, else with all q and p near 0.5; `problem.at(q=..., p=...)` chooses another one.
+    order : int, optional
+        The order that is claimed; it agrees within 0.5, from order 7 on within 1.
+    symplectic, symmetric : bool, optional
+        What is claimed. Without it the property is measured and not compared.
+    preserves : str or sequence of str, optional
+        What is claimed to be kept to rounding: "energy", and the invariants of the problem, as "angular_momentum".
+
+    Returns
+    -------
+    StepCertificate
+        order, symplectic, symmetric, preserves, agrees, reason, for this problem. On a linear one, and with one degree of
+        freedom, more may hold than is claimed, which refutes nothing.
+
+    Raises
+    ------
+    Error
+        For a step that raises, returns other shapes or NaN, changes nothing, or keeps hidden state; for a problem with
+        walls, with constraints or with an H that depends on t; for unknown names.
+
+    Notes
+    -----
+    Errors of single steps are measured against the flow in long double. The Jacobian comes from central differences of
+    order 6 with three difference lengths, whose disagreement is its error bound [HLW2006, Def. VI.2.1].
+    A defect of the size of rounding is True, one of the size of the step's error is False, and what is between, as with
+    equations that are solved to a coarse tolerance or steps in single precision, is None. Some 2000 steps are taken.
+
+    Examples
+    --------
+    >>> import hamflow as hf, numpy as np
+    >>> def leapfrog(q, p, h):
+    ...     p -= h/2*np.sin(q)
+    ...     q += h*p
+    ...     p -= h/2*np.sin(q)
+    >>> found = hf.certify_step(leapfrog, "pendulum", order=2, symplectic=True, symmetric=True)
+    >>> round(found.order), found.symplectic, found.symmetric, found.preserves, found.agrees
+    (2, True, True, {'energy': False}, True)
+    """
+    if not callable(step):
+        raise Error(f"step: found {type(step).__name__}; allowed a function step(q, p, h)")
+    if order is not None:
+        try:
+            order = operator.index(order)
+        except TypeError:
+            raise Error(f"order: found {order!r}; allowed a whole number from 1") from None
+        if isinstance(order, bool) or not 1 <= order <= 1000:
+            raise Error(f"order: found {order!r}; allowed a whole number from 1")
+    names = [preserves] if isinstance(preserves, str) else list(preserves)
+    if not all(isinstance(name, str) for name in names):
+        raise Error(f"preserves: found {preserves!r}; allowed names")
+    names = [name.replace(" ", "_") for name in names]
+    return StepCertificate(_core.certify_step(step, _step_problem(problem), order, _claim(symplectic, "symplectic"),
+                                              _claim(symmetric, "symmetric"), names))

@@ -1,0 +1,773 @@
+#include "hamflow/verify/certify_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "hamflow/core/complaint.hpp"
+#include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/run/make_simulation.hpp"
+#include "hamflow/run/walls.hpp"
+#include "hamflow/verify/drift.hpp"
+#include "rounding.hpp"
+
+namespace hamflow {
+
+namespace {
+
+constexpr std::uint64_t state_seed = 20260711;    // any number: fixed, so that a measurement can be repeated
+constexpr double nothing_but_rounding = 0x1p-40;  // of scaled states: an iteration that ends at 1e-13 counts as exact
+constexpr double told_from_rounding = 1024;       // times rounding: an error of the method that shows
+constexpr double part_of_the_error = 0x1p-10;     // a defect above it belongs to the method, not to its solver
+constexpr double most_error = 0.3;                // of scaled states: with more a step shows nothing
+constexpr const char* energy_name = "energy";
+
+double size_of(const State<double>& x) {
+  double squares = 0;
+  for (const double each : x) squares += each * each;
+  return std::sqrt(squares);
+}
+
+/// Where a step is measured: states in general position, units of q and p, and the fastest angular frequency.
+struct Surroundings {
+  std::vector<State<double>> states;
+  State<double> unit;  // of each number of a state
+  double frequency = 0;
+};
+
+/// The spectral radius of the vector field's Jacobian, |A^8|^(1/8).
+double frequency_at(const StepProblem& problem, const State<double>& z) {
+  const std::size_t n = z.size() / 2;
+  const auto field = [&](const State<double>& at) {
+    const auto half = at.begin() + static_cast<std::ptrdiff_t>(n);
+    const EnergyGradient g = problem.entry->gradient(problem.parameters, {at.begin(), half}, {half, at.end()});
+    State<double> f = g.by_p;
+    for (const double force : g.by_q) f.push_back(-force);
+    return f;
+  };
+  double size = 0;
+  for (const double x : z) size = std::max(size, std::abs(x));
+  const double d = 0x1p-17 * (size > 0 ? size : 1);
+  const auto times_jacobian = [&](const State<double>& v) {
+    State<double> above = z;
+    State<double> below = z;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      above[i] += d * v[i];
+      below[i] -= d * v[i];
+    }
+    State<double> difference = field(above);
+    const State<double> other = field(below);
+    for (std::size_t i = 0; i < z.size(); ++i) difference[i] = (difference[i] - other[i]) / (2 * d);
+    return difference;
+  };
+  State<double> v;
+  for (std::size_t i = 0; i < z.size(); ++i) v.push_back(counter_uniform(state_seed + 2, i));
+  double log_growth = 0;
+  constexpr int powers = 16;
+  for (int k = 0; k < powers; ++k) {
+    const double before = size_of(v);
+    if (!(before > 0) || !std::isfinite(before)) return 0;
+    for (double& x : v) x /= before;
+    v = times_jacobian(v);
+    if (k >= powers / 2) log_growth += std::log(size_of(v));
+  }
+  const double found = std::exp(log_growth / (powers / 2));
+  return std::isfinite(found) ? found : 0;
+}
+
+State<double> centre_of(const StepProblem& problem) {
+  State<double> z = problem.q;
+  z.insert(z.end(), problem.p.begin(), problem.p.end());
+  if (!z.empty()) return z;
+  const ProblemInfo& info = problem.entry->info;
+  const bool is_of_region =
+      std::all_of(info.region.parameters.begin(), info.region.parameters.end(), [&](const auto& each) {
+        const auto chosen = problem.parameters.find(each.first);
+        return chosen != problem.parameters.end() && chosen->second == each.second;
+      });
+  if (is_of_region && !info.region.centre.empty()) return info.region.centre;
+  if (problem.entry->dimension == 0) {
+    throw Error(info.name + " is of any size: give a state of it, as by problem.at(q=..., p=...)");
+  }
+  for (std::size_t i = 0; i < 2 * problem.entry->dimension; ++i)
+    z.push_back(0.5 + 0.1 * counter_uniform(state_seed, i));
+  return z;
+}
+
+Surroundings surroundings_of(const StepProblem& problem) {
+  constexpr double spread = 0.1;
+  constexpr std::size_t count = 4;
+  const State<double> centre = centre_of(problem);
+  const std::size_t n = centre.size() / 2;
+  const auto parts = [&](const State<double>& z) {
+    const auto half = z.begin() + static_cast<std::ptrdiff_t>(n);
+    return std::pair(std::vector<double>(z.begin(), half), std::vector<double>(half, z.end()));
+  };
+  const auto is_regular = [&](const State<double>& z) {
+    const auto [q, p] = parts(z);
+    return problem.entry->regular(problem.parameters, q, p);
+  };
+  if (!is_regular(centre)) {
+    throw Error("H or its gradient is not finite at the state chosen for " + problem.entry->info.name +
+                ": give a state of the motion, as by problem.at(q=..., p=...)");
+  }
+  Surroundings found;
+  const auto [q, p] = parts(centre);
+  const EnergyGradient g = problem.entry->gradient(problem.parameters, q, p);
+  found.frequency = frequency_at(problem, centre);
+  const auto largest = [](const std::vector<double>& xs) {
+    double most = 0;
+    for (const double x : xs) most = std::max(most, std::abs(x));
+    return most;
+  };
+  // A motion that nothing turns back, such as a free fall, has a time all the same: that in which it changes the state.
+  const double turns_over =
+      std::max(largest(q) > 0 ? largest(g.by_p) / largest(q) : 0, largest(p) > 0 ? largest(g.by_q) / largest(p) : 0);
+  if (found.frequency < 0x1p-10 * turns_over) found.frequency = turns_over;
+  const double rate = found.frequency;
+  double unit_q = std::max(largest(q), rate > 0 ? largest(g.by_p) / rate : 0);
+  double unit_p = std::max(largest(p), rate > 0 ? largest(g.by_q) / rate : 0);
+  if (!(unit_q > 0)) unit_q = 1;
+  if (!(unit_p > 0)) unit_p = 1;
+  found.unit.assign(n, unit_q);
+  found.unit.resize(2 * n, unit_p);
+  for (std::uint64_t draw = 0; found.states.size() < count && draw < 100; ++draw) {
+    State<double> z = centre;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      z[i] += spread * found.unit[i] * counter_uniform(state_seed + 1, draw * z.size() + i);
+    }
+    if (is_regular(z)) found.states.push_back(std::move(z));
+  }
+  for (const auto& z : found.states) found.frequency = std::max(found.frequency, frequency_at(problem, z));
+  if (found.states.empty() || !(found.frequency > 0)) {
+    throw Error("no motion was found beside the state chosen for " + problem.entry->info.name +
+                ": give another one, as by problem.at(q=..., p=...)");
+  }
+  return found;
+}
+
+/// Differences of order 6 along one direction, with the two lengths that agree best.
+struct Derivative {
+  State<double> value;
+  double uncertainty = 0;
+};
+
+/// The defect of a property with one step length, beside the error of the step there and what rounding explains.
+struct Vote {
+  double h = 0;
+  double defect = 0;
+  double rounding = 0;
+  double error = 0;
+  bool is_told() const { return error >= told_from_rounding * rounding; }
+  bool is_kept() const { return defect <= 4 * rounding; }
+  bool is_broken() const { return defect > 32 * rounding && defect > part_of_the_error * error; }
+};
+
+/// What the votes of all step lengths come to.
+struct PropertyVerdict {
+  std::optional<bool> holds;
+  std::string reason;
+};
+PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& property) {
+  int kept = 0;
+  bool is_exact = !votes.empty();
+  const Vote* between = nullptr;
+  for (const Vote& vote : votes) {
+    if (vote.is_broken()) {
+      return {false, fmt::format("{}: a defect of {:.1e} with h = {:.3g}, where the error of the step is {:.1e}",
+                                 property, vote.defect, vote.h, vote.error)};
+    }
+    if (!vote.is_kept()) {
+      between = &vote;
+    } else if (vote.is_told()) {
+      ++kept;
+    }
+    is_exact = is_exact && vote.is_kept() && vote.error <= 4 * vote.rounding;
+  }
+  if (between != nullptr) {
+    return {std::nullopt,
+            fmt::format("{} undecided: a defect of {:.1e} with h = {:.3g}, more than the {:.1e} that rounding explains "
+                        "and little beside the error of the step, {:.1e}",
+                        property, between->defect, between->h, 4 * between->rounding, between->error)};
+  }
+  if (kept >= 2 || is_exact) return {true, {}};
+  return {std::nullopt, fmt::format("{} undecided: no two steps have an error that stands above rounding", property)};
+}
+
+class StepExamination {
+ public:
+  StepExamination(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims)
+      : step_(step), problem_(problem), claims_(claims), around_(surroundings_of(problem)) {
+    const Request request{.problem = problem.entry->info.name,
+                          .variant = problem.variant,
+                          .parameters = problem.parameters,
+                          .start = {},
+                          .method = {.name = "rk4", .options = {}}};
+    flow_ = problem.entry->step_map(request, size() / 2);
+    if (!flow_) throw Error("single steps are not measured on " + problem.entry->info.name);
+    short_step_ = 2 * std::numbers::pi / 60 / around_.frequency;
+    constexpr double longest_period = 1000;  // the exact flow takes steps of at most 1/8
+    if (60 * short_step_ > longest_period) {
+      throw Error(
+          fmt::format("a period of the motion is about {:.2g} time units; allowed {:.0f}: choose a larger unit "
+                      "of time",
+                      60 * short_step_, longest_period));
+    }
+  }
+
+  StepCertificate certificate() {
+    check_names();
+    check_repeatable();
+    measure_order();
+    if (is_single_precision_) {
+      reasons_.push_back(
+          "all numbers that the step returns are those of single precision: structure is undecided; compute in double");
+      for (const std::string& name : names()) found_.preserves.emplace_back(name, std::nullopt);
+    } else {
+      measure_structure();
+    }
+    check_repeated();
+    compare();
+    found_.reason = reasons_.empty() ? "every property was decided" : joined(reasons_, "; ");
+    return found_;
+  }
+
+ private:
+  std::size_t size() const { return around_.unit.size(); }
+  std::size_t degrees() const { return size() / 2; }
+
+  /// The state after a step, which has to be there. @throws Error
+  State<double> stepped(const State<double>& z, double h) {
+    const auto half = z.begin() + static_cast<std::ptrdiff_t>(degrees());
+    std::vector<double> q(z.begin(), half);
+    std::vector<double> p(half, z.end());
+    step_(q, p, h);
+    if (q.size() != degrees() || p.size() != degrees()) {
+      throw Error(
+          fmt::format("the step returned {} and {} numbers; allowed {} of each", q.size(), p.size(), degrees()));
+    }
+    q.insert(q.end(), p.begin(), p.end());
+    for (const double x : q) {
+      if (!std::isfinite(x))
+        throw Error(fmt::format("the step returned {} with h = {:.6g}; allowed finite numbers", x, h));
+      is_single_precision_ = is_single_precision_ && static_cast<double>(static_cast<float>(x)) == x;
+    }
+    return q;
+  }
+  /// Without value where the step fails, as it may with a long h.
+  std::optional<State<double>> tried(const State<double>& z, double h) {
+    try {
+      return stepped(z, h);
+    } catch (const Error& error) {
+      failure_ = error.what();
+      return std::nullopt;
+    }
+  }
+
+  /// The error of a step in units of the state; without value where the step fails.
+  std::optional<State<double>> error_of(const State<double>& z, double h) {
+    const auto end = tried(z, h);
+    if (!end) return std::nullopt;
+    const State<long double> exact = flow_->flow(State<long double>(z.begin(), z.end()), static_cast<long double>(h));
+    State<double> error(size());
+    for (std::size_t i = 0; i < size(); ++i) {
+      error[i] = static_cast<double>(static_cast<long double>((*end)[i]) - exact[i]) / around_.unit[i];
+      if (!std::isfinite(error[i])) return std::nullopt;
+    }
+    return error;
+  }
+  /// Of all states together; without value where a step fails.
+  std::optional<double> mean_error(double h) {
+    double squares = 0;
+    for (const auto& z : around_.states) {
+      const auto error = error_of(z, h);
+      if (!error) return std::nullopt;
+      squares += std::pow(size_of(*error), 2);
+    }
+    return std::sqrt(squares / static_cast<double>(around_.states.size()));
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all{energy_name};
+    for (const InvariantInfo& info : problem_.entry->info.invariants) all.push_back(info.name);
+    return all;
+  }
+  void check_names() const {
+    const std::vector<std::string> known = names();
+    for (const std::string& claim : claims_.preserves) {
+      if (std::find(known.begin(), known.end(), claim) != known.end()) continue;
+      throw Error("preserves: found " + claim + "; allowed " + joined(known) + suggestion(claim, known));
+    }
+  }
+
+  /// The same call twice, with another one between. What fails here is an error.
+  void check_repeatable() {
+    const State<double>& z = around_.states[0];
+    const auto begin = std::chrono::steady_clock::now();
+    first_ = stepped(z, short_step_);
+    (void)stepped(around_.states[1 % around_.states.size()], 1.5 * short_step_);
+    check_repeated();
+    const std::chrono::duration<double> taken = (std::chrono::steady_clock::now() - begin) / 3;
+    if (first_ == z) {
+      throw Error(
+          fmt::format("the step changed nothing with h = {:.3g}; allowed a step that returns the new (q, p), or "
+                      "changes its arguments in place",
+                      short_step_));
+    }
+    // Some 2000 calls are made of four states; fewer of a step that is slow.
+    constexpr double slow = 3e-3;
+    if (taken.count() > slow) around_.states.resize(std::min<std::size_t>(around_.states.size(), 2));
+    if (taken.count() > 3 * slow) around_.states.resize(1);
+  }
+  void check_repeated() {
+    const State<double> again = stepped(around_.states[0], short_step_);
+    if (std::memcmp(again.data(), first_.data(), first_.size() * sizeof(double)) == 0) return;
+    throw Error(
+        "the step keeps hidden state: the same (q, p, h) gave other numbers later; allowed a step that depends on its "
+        "arguments alone");
+  }
+
+  /// The error of a step, and which part of it is no smooth function of h.
+  struct OrderPoint {
+    double h = 0;
+    double error = 0;
+    double noise = 0;
+  };
+  /// Without value where a step fails.
+  std::optional<OrderPoint> order_point(double h) {
+    constexpr double nearby = 0x1p-10;  // of h
+    double squares = 0;
+    double second_differences = 0;
+    for (const auto& z : around_.states) {
+      const auto here = error_of(z, h);
+      const auto below = here ? error_of(z, h * (1 - nearby)) : std::nullopt;
+      const auto above = below ? error_of(z, h * (1 + nearby)) : std::nullopt;
+      if (!above) return std::nullopt;
+      squares += std::pow(size_of(*here), 2);
+      for (std::size_t i = 0; i < size(); ++i) {
+        second_differences += std::pow((*below)[i] - 2 * (*here)[i] + (*above)[i], 2) / 6;  // 1 + 4 + 1
+      }
+    }
+    const double count = static_cast<double>(around_.states.size());
+    return OrderPoint{h, std::sqrt(squares / count), squares > 0 ? std::sqrt(second_differences / squares) : 1};
+  }
+
+  void measure_order() {
+    constexpr int most_lengths = 128;
+    constexpr std::size_t enough = 24;
+    constexpr double smooth = 0.02;  // with more noise an error is that of rounding, or of a solver
+    constexpr double rounding_in_single_precision = 0x1p-17;
+    constexpr int gone = 8;  // so many noisy errors in turn, a factor of 4 in h
+    std::vector<OrderPoint> points;
+    double largest_error = 0;
+    int noisy = 0;
+    for (int k = 0; k < most_lengths && noisy < gone; ++k) {
+      const auto point = order_point(20 * short_step_ * std::exp2(-0.25 * k));
+      if (!point || !(point->error < most_error)) continue;
+      if (is_single_precision_ && point->error < rounding_in_single_precision) break;
+      largest_error = std::max(largest_error, point->error);
+      noisy = point->noise > smooth ? noisy + 1 : 0;
+      if (noisy == 0) points.push_back(*point);
+      if (point->error < nothing_but_rounding && points.size() >= enough) break;
+    }
+    fit_order(points, largest_error);
+  }
+
+  /// log E = a + s log h + b h^k + c h^l, by least squares.
+  struct PowerFit {
+    double order = 0;
+    double uncertainty = 0;
+    double misfit = std::numeric_limits<double>::infinity();  // 1: as noise has it
+  };
+  static PowerFit fitted_power(std::span<const OrderPoint> points, const std::vector<int>& powers) {
+    constexpr double least_noise = 1e-3;  // what of log E the terms left out are allowed
+    std::vector<std::vector<double>> columns;
+    const auto add = [&](const auto& value) {
+      std::vector<double> column;
+      for (const OrderPoint& each : points) column.push_back(value(each) / std::max(each.noise, least_noise));
+      columns.push_back(std::move(column));
+    };
+    add([](const OrderPoint&) { return 1.0; });
+    for (const int power : powers) add([&](const OrderPoint& each) { return std::pow(each.h / points[0].h, power); });
+    add([](const OrderPoint& each) { return std::log(each.h); });
+    add([](const OrderPoint& each) { return std::log(each.error); });
+    const auto product = [](const std::vector<double>& x, const std::vector<double>& y) {
+      double sum = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+      return sum;
+    };
+    // Each column is freed of those before it: what is left of log E along what is left of log h is the exponent.
+    for (std::size_t k = 0; k + 2 < columns.size(); ++k) {
+      for (std::size_t l = k + 1; l < columns.size(); ++l) {
+        const double along = product(columns[k], columns[l]) / product(columns[k], columns[k]);
+        for (std::size_t i = 0; i < points.size(); ++i) columns[l][i] -= along * columns[k][i];
+      }
+    }
+    const std::vector<double>& log_h = columns[columns.size() - 2];
+    std::vector<double> rest = columns.back();
+    const double exponent = product(log_h, rest) / product(log_h, log_h);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= exponent * log_h[i];
+    const double degrees_left = static_cast<double>(points.size()) - static_cast<double>(powers.size()) - 2;
+    return {exponent - 1, 1 / std::sqrt(product(log_h, log_h)), std::sqrt(product(rest, rest) / degrees_left)};
+  }
+
+  /// The finest part of the errors that is a power of h, with up to two terms beside it. Errors below 10^-12 are taken
+  /// last: there published coefficients of 12 digits show.
+  void fit_order(const std::vector<OrderPoint>& points, double largest_error) {
+    constexpr std::size_t fewest = 6;
+    constexpr std::size_t most_ends = 6;
+    constexpr double most_uncertainty = 0.1;
+    if (points.size() < fewest) {
+      if (points.empty() && largest_error > 0 && largest_error < told_from_rounding * nothing_but_rounding) {
+        found_.order = std::numeric_limits<double>::infinity();
+        reasons_.push_back("order: every step is exact to rounding");
+        return;
+      }
+      reasons_.push_back(
+          fmt::format("order undecided: {} step lengths have an error that stands above noise and below "
+                      "the size of the state; a slope needs {}{}",
+                      points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
+      return;
+    }
+    std::vector<std::size_t> ends;
+    for (std::size_t end = points.size(); end >= fewest && ends.size() < most_ends; --end) {
+      if (points[end - 1].error >= nothing_but_rounding) ends.push_back(end);
+    }
+    for (std::size_t end = fewest; end <= points.size(); ++end) {
+      if (points[end - 1].error < nothing_but_rounding) ends.push_back(end);
+    }
+    PowerFit best;
+    for (const std::size_t end : ends) {
+      for (const std::size_t count : {12, 9, 7, 6}) {
+        if (count > end) continue;
+        const std::span window = std::span(points).subspan(end - count, count);
+        for (const std::vector<int>& powers : {std::vector<int>{}, {1}, {2}, {1, 2}}) {
+          if (count < powers.size() + 5 && !powers.empty()) continue;
+          const PowerFit fit = fitted_power(window, powers);
+          if (fit.misfit < best.misfit) best = fit;
+          if (fit.misfit > 1 || fit.uncertainty > most_uncertainty) continue;
+          found_.order = fit.order;
+          return;
+        }
+      }
+    }
+    found_.order = best.order;
+    is_power_ = false;
+    reasons_.push_back(
+        fmt::format("order undecided: the errors go like h^{:.1f} and are no power of h", best.order + 1));
+  }
+
+  /// Directions in units of the state: all axes, or some random ones of a large problem.
+  std::vector<State<double>> directions() const {
+    constexpr std::size_t most_directions = 6;
+    std::vector<State<double>> all;
+    if (size() <= most_directions) {
+      for (std::size_t i = 0; i < size(); ++i) {
+        all.emplace_back(size());
+        all.back()[i] = 1;
+      }
+      return all;
+    }
+    for (std::size_t k = 0; k < most_directions; ++k) {
+      State<double> u;
+      for (std::size_t i = 0; i < size(); ++i) u.push_back(counter_uniform(state_seed + 3, k * size() + i));
+      const double length = size_of(u);
+      for (double& x : u) x /= length;
+      all.push_back(std::move(u));
+    }
+    return all;
+  }
+
+  /// The derivative of a step along u; without value where a step fails.
+  std::optional<Derivative> derivative(const State<double>& z, const State<double>& u, double h) {
+    constexpr double lengths[] = {0x1p-7, 0x1p-8, 0x1p-9};
+    constexpr double weights[] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
+    std::vector<State<double>> found;
+    for (const double d : lengths) {
+      State<double> sum(size());
+      for (int k = 1; k <= 3; ++k) {
+        State<double> above = z;
+        State<double> below = z;
+        for (std::size_t i = 0; i < size(); ++i) {
+          above[i] += k * d * u[i] * around_.unit[i];
+          below[i] -= k * d * u[i] * around_.unit[i];
+        }
+        const auto a = tried(above, h);
+        const auto b = a ? tried(below, h) : std::nullopt;
+        if (!b) return std::nullopt;
+        for (std::size_t i = 0; i < size(); ++i) sum[i] += weights[k - 1] * ((*a)[i] - (*b)[i]) / (d * around_.unit[i]);
+      }
+      found.push_back(std::move(sum));
+    }
+    Derivative best;
+    best.uncertainty = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < found.size(); ++k) {
+      double apart = 0;
+      for (std::size_t i = 0; i < size(); ++i) apart = std::max(apart, std::abs(found[k + 1][i] - found[k][i]));
+      if (apart < best.uncertainty) best = {found[k + 1], apart};
+    }
+    return best;
+  }
+
+  double form(const State<double>& x, const State<double>& y) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < degrees(); ++i) sum += x[i] * y[degrees() + i] - x[degrees() + i] * y[i];
+    return sum;
+  }
+
+  std::optional<Vote> symplectic_vote(double h, double error) {
+    constexpr std::size_t most_states = 3;
+    Vote vote{.h = h, .rounding = nothing_but_rounding, .error = error};
+    const auto along = directions();
+    for (std::size_t k = 0; k < std::min(most_states, around_.states.size()); ++k) {
+      std::vector<State<double>> images;
+      for (const auto& u : along) {
+        const auto image = derivative(around_.states[k], u, h);
+        if (!image) return std::nullopt;
+        vote.rounding = std::max(vote.rounding, image->uncertainty);
+        images.push_back(image->value);
+      }
+      for (std::size_t a = 0; a < along.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          const double terms = 1 + size_of(images[a]) + size_of(images[b]);
+          vote.defect = std::max(vote.defect, std::abs(form(images[a], images[b]) - form(along[a], along[b])) / terms);
+        }
+      }
+    }
+    return vote;
+  }
+
+  std::optional<Vote> symmetric_vote(double h, double error) {
+    Vote vote{.h = h, .rounding = nothing_but_rounding, .error = error};
+    for (const auto& z : around_.states) {
+      const auto there = tried(z, h);
+      const auto back = there ? tried(*there, -h) : std::nullopt;
+      if (!back) return std::nullopt;
+      State<double> apart(size());
+      for (std::size_t i = 0; i < size(); ++i) apart[i] = ((*back)[i] - z[i]) / around_.unit[i];
+      vote.defect = std::max(vote.defect, size_of(apart));
+    }
+    return vote;
+  }
+
+  /// The energy, and the components of every invariant, at a state.
+  /// @param t for the centre of mass, which moves on
+  std::vector<std::vector<double>> kept_at(const State<double>& z, double t = 0) const {
+    const auto half = z.begin() + static_cast<std::ptrdiff_t>(degrees());
+    const std::vector<double> q(z.begin(), half);
+    const std::vector<double> p(half, z.end());
+    std::vector<std::vector<double>> all{{problem_.entry->energy(problem_.parameters, q, p)}};
+    if (problem_.entry->info.invariants.empty()) return all;
+    Request request{.problem = problem_.entry->info.name,
+                    .variant = problem_.variant,
+                    .parameters = problem_.parameters,
+                    .start = {},
+                    .method = {.name = "rk4", .options = {}}};
+    request.record = false;
+    for (const double x : q) request.start.q.push_back(shortest(x));
+    for (const double x : p) request.start.p.push_back(shortest(x));
+    for (const InvariantExcursion& each : make_simulation(request)->invariants()) all.push_back(each.initial);
+    const std::vector<InvariantInfo>& infos = problem_.entry->info.invariants;
+    const auto of_kind = [&](Terms terms) {
+      return std::find_if(infos.begin(), infos.end(), [&](const InvariantInfo& info) { return info.terms == terms; });
+    };
+    const auto centre = of_kind(Terms::centre_of_mass);
+    const auto momentum = of_kind(Terms::momenta);
+    if (centre != infos.end() && momentum != infos.end() && problem_.entry->total_mass) {
+      const double mass = problem_.entry->total_mass(problem_.parameters, degrees());
+      std::vector<double>& place = all[1 + static_cast<std::size_t>(centre - infos.begin())];
+      const std::vector<double>& total = all[1 + static_cast<std::size_t>(momentum - infos.begin())];
+      for (std::size_t c = 0; c < place.size(); ++c) place[c] -= total[c] / mass * t;
+    }
+    return all;
+  }
+  /// By how much a unit of each number of a state moves them.
+  std::vector<double> sizes_of_kept(const State<double>& z) const {
+    constexpr double part = 0x1p-10;
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < size(); ++i) {
+      State<double> above = z;
+      State<double> below = z;
+      above[i] += part * around_.unit[i];
+      below[i] -= part * around_.unit[i];
+      const auto a = kept_at(above);
+      const auto b = kept_at(below);
+      sizes.resize(a.size());
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        double most = 0;
+        for (std::size_t c = 0; c < a[k].size(); ++c) most = std::max(most, std::abs(a[k][c] - b[k][c]) / (2 * part));
+        sizes[k] += most;
+      }
+    }
+    return sizes;
+  }
+  /// One vote for each of names(); without value where a step fails.
+  std::optional<std::vector<Vote>> invariant_votes(double h, double error) {
+    std::vector<Vote> votes(names().size(), Vote{.h = h, .rounding = nothing_but_rounding, .error = error});
+    for (std::size_t k = 0; k < around_.states.size(); ++k) {
+      const State<double>& z = around_.states[k];
+      const auto end = tried(z, h);
+      if (!end) return std::nullopt;
+      if (sizes_.size() <= k) sizes_.push_back(sizes_of_kept(z));
+      const auto before = kept_at(z);
+      const auto after = kept_at(*end, h);
+      for (std::size_t i = 0; i < votes.size(); ++i) {
+        for (std::size_t c = 0; c < before[i].size(); ++c) {
+          const double moved = std::abs(after[i][c] - before[i][c]);
+          votes[i].defect = std::max(votes[i].defect, sizes_[k][i] > 0 ? moved / sizes_[k][i] : 0);
+        }
+      }
+    }
+    return votes;
+  }
+
+  void measure_structure() {
+    // From a thirtieth of a period, or a shorter step where that fails, to a whole one. Longer steps are taken where
+    // the shorter ones show too little.
+    double h = 2 * short_step_;
+    const auto is_sane = [&](double length) {
+      const auto error = mean_error(length);
+      return error && *error < most_error;
+    };
+    for (int k = 0; k < 6 && !is_sane(h); ++k) h /= 2;
+    std::vector<Vote> symplectic;
+    std::vector<Vote> symmetric;
+    std::vector<std::vector<Vote>> kept(names().size());
+    const auto is_done = [](const std::vector<Vote>& votes) {
+      return std::any_of(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_broken(); }) ||
+             std::count_if(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_told(); }) >= 2;
+    };
+    std::string no_way_back;
+    for (int k = 0; k < 6; ++k, h *= 2) {
+      const auto error = mean_error(h);
+      if (!error || !(*error < most_error)) break;
+      bool go_on = false;
+      if (!is_done(symplectic)) {
+        const auto vote = symplectic_vote(h, *error);
+        if (vote) add(symplectic, *vote);
+        go_on = !is_done(symplectic);
+      }
+      if (!is_done(symmetric) && no_way_back.empty()) {
+        const auto vote = symmetric_vote(h, *error);
+        if (vote) add(symmetric, *vote);
+        if (!vote) no_way_back = failure_;
+        go_on = go_on || !is_done(symmetric);
+      }
+      if (const auto votes = invariant_votes(h, *error)) {
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+          if (is_done(kept[i])) continue;
+          add(kept[i], (*votes)[i]);
+          go_on = go_on || !is_done(kept[i]);
+        }
+      }
+      if (!go_on) break;
+    }
+    const auto decide = [&](const std::vector<Vote>& votes, const std::string& property) {
+      const PropertyVerdict verdict = verdict_of(votes, property);
+      if (!verdict.reason.empty()) reasons_.push_back(verdict.reason);
+      return verdict.holds;
+    };
+    found_.symplectic = decide(symplectic, "symplectic");
+    if (no_way_back.empty()) {
+      found_.symmetric = decide(symmetric, "symmetric");
+    } else {
+      reasons_.push_back("symmetric undecided: the step fails with a negative h: " + no_way_back);
+    }
+    const std::vector<std::string> all = names();
+    for (std::size_t i = 0; i < all.size(); ++i) found_.preserves.emplace_back(all[i], decide(kept[i], all[i]));
+  }
+  /// Steps whose error is rounding show nothing, unless all do.
+  static void add(std::vector<Vote>& votes, const Vote& vote) {
+    if (vote.is_told()) std::erase_if(votes, [](const Vote& before) { return !before.is_told(); });
+    votes.push_back(vote);
+  }
+
+  bool is_linear() {
+    const State<double>& z = around_.states[0];
+    const double here = frequency_at(problem_, z);
+    return std::all_of(around_.states.begin(), around_.states.end(), [&](const State<double>& other) {
+      return std::abs(frequency_at(problem_, other) - here) < 1e-6 * here;
+    });
+  }
+
+  void compare() {
+    bool undecided = false;
+    std::vector<std::string> refuted;
+    const auto compare_one = [&](const std::string& property, const std::optional<bool>& claim,
+                                 const std::optional<bool>& found) {
+      if (!claim) return;
+      undecided = undecided || !found;
+      if (!found || *found == *claim) return;
+      if (*claim) {
+        refuted.push_back(property + " is claimed, and does not hold");
+      } else if (degrees() > 1 && !is_linear()) {
+        refuted.push_back(property + " is denied, and holds on this problem");
+      } else if (!is_linear()) {
+        undecided = true;
+        reasons_.push_back(property + " is denied, and holds, as may be with one degree of freedom");
+      }
+    };
+    if (claims_.order) {
+      const double claimed = *claims_.order;
+      // The nearest whole number; of high orders few errors stand above rounding, and other terms are seen with them.
+      const double tolerance = *claims_.order <= 6 ? 0.5 : 1;
+      if (!found_.order || !is_power_ || std::isinf(*found_.order)) {
+        undecided = true;
+      } else if (*found_.order < claimed - tolerance) {
+        refuted.push_back(fmt::format("order {} is claimed, {:.2f} is measured", *claims_.order, *found_.order));
+      } else if (*found_.order > claimed + tolerance && !is_linear()) {
+        const std::string higher =
+            fmt::format("order {} is claimed, the higher {:.2f} is measured", *claims_.order, *found_.order);
+        if (degrees() > 1) {
+          refuted.push_back(higher);
+        } else {
+          undecided = true;
+          reasons_.push_back(higher + ", as may be with one degree of freedom");
+        }
+      }
+    }
+    compare_one("symplectic", claims_.symplectic, found_.symplectic);
+    compare_one("symmetric", claims_.symmetric, found_.symmetric);
+    for (const std::string& claim : claims_.preserves) {
+      for (const auto& [name, holds] : found_.preserves) {
+        if (name == claim) compare_one(name, true, holds);
+      }
+    }
+    reasons_.insert(reasons_.begin(), refuted.begin(), refuted.end());
+    found_.agrees = !refuted.empty() ? std::optional<bool>(false)
+                    : undecided      ? std::nullopt
+                                     : std::optional<bool>(true);
+  }
+
+  const ForeignStep& step_;
+  const StepProblem& problem_;
+  const StepClaims& claims_;
+  Surroundings around_;
+  std::unique_ptr<StepMap> flow_;
+  double short_step_ = 0;  // a sixtieth of the shortest period
+  State<double> first_;
+  std::vector<std::vector<double>> sizes_;
+  bool is_single_precision_ = true;
+  bool is_power_ = true;
+  std::string failure_;
+  std::vector<std::string> reasons_;
+  StepCertificate found_;
+};
+
+}  // namespace
+
+StepCertificate certify_step(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims) {
+  if (walls_among(problem.variant))
+    throw Error("found a problem with walls; allowed one without: a step is measured alone");
+  if (problem.entry->onto_constraints) throw Error("found a problem with constraints; allowed one without");
+  return StepExamination(step, problem, claims).certificate();
+}
+
+}  // namespace hamflow

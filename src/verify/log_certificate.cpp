@@ -1,0 +1,317 @@
+#include "hamflow/verify/log_certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/error.hpp"
+#include "hamflow/verify/swings.hpp"
+#include "rounding.hpp"
+
+namespace hamflow {
+
+namespace {
+
+constexpr std::size_t most_log_blocks = 256;  // as EnergyBlocks has
+constexpr std::uint64_t log_seed = 1686;      // any number: the places of the samples are part of the result
+
+/// A place in the first half of a block, from 0 to 1/2: blocks that are all but a whole number of periods long would
+/// make a drift of an oscillation.
+double place_in_block(std::size_t block) { return static_cast<double>(counter_bits(log_seed, block) >> 11) * 0x1p-54; }
+
+void check_finite(const std::vector<double>& numbers, const char* name) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (std::isfinite(numbers[i])) continue;
+    throw Error(fmt::format("{}[{}]: found {}; allowed finite numbers", name, i, numbers[i]));
+  }
+}
+
+void check_log(const std::vector<double>& t, const std::vector<double>& energy, const std::optional<double>& scale) {
+  if (t.size() != energy.size()) {
+    throw Error(fmt::format("found {} times and {} energies; allowed as many of each", t.size(), energy.size()));
+  }
+  if (t.size() < 2) {
+    throw Error(fmt::format("found {} sample{}; allowed at least 2, and a drift class needs {}", t.size(),
+                            t.size() == 1 ? "" : "s", RunDrift::fewest_blocks + 1));
+  }
+  check_finite(t, "t");
+  check_finite(energy, "energy");
+  if (const auto at = first_time_that_does_not_rise(t)) {
+    throw Error(fmt::format("t[{}]: found {} after {}; allowed times that rise strictly", *at, t[*at], t[*at - 1]));
+  }
+  if (scale && !(*scale > 0 && std::isfinite(*scale))) {
+    throw Error(fmt::format("scale: found {}; allowed a positive number", *scale));
+  }
+}
+
+/// Whether the times are equidistant but for the rounding of printed ones.
+bool is_equidistant(const std::vector<double>& t) {
+  constexpr double rounded = 1e-3;  // of the spacing
+  const double apart = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (std::abs(t[i] - t.front() - static_cast<double>(i) * apart) > rounded * apart) return false;
+  }
+  return true;
+}
+
+/// One sample in each of up to 256 blocks of equal duration, as numbers of samples, the first one first.
+std::vector<std::size_t> equidistant_blocks(std::size_t samples) {
+  const std::size_t stride = (samples - 1 + most_log_blocks - 1) / most_log_blocks;
+  std::vector<std::size_t> chosen{0};
+  for (std::size_t block = 1; block * stride < samples; ++block) {
+    const auto moved = static_cast<std::size_t>(place_in_block(block) * static_cast<double>(stride));
+    chosen.push_back(std::min(block * stride + moved, samples - 1));
+  }
+  return chosen;
+}
+
+/// Of other times. Empty where a gap is so long that a block has no sample in its first half.
+std::vector<std::size_t> resampled_blocks(const std::vector<double>& t) {
+  double longest = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) longest = std::max(longest, t[i] - t[i - 1]);
+  const double whole = t.back() - t.front();
+  const auto blocks = static_cast<std::size_t>(std::min(whole / (2 * longest), static_cast<double>(most_log_blocks)));
+  std::vector<std::size_t> chosen;
+  if (blocks <= static_cast<std::size_t>(RunDrift::fewest_blocks)) return chosen;
+  chosen.push_back(0);
+  for (std::size_t block = 1; block < blocks; ++block) {
+    const double at =
+        t.front() + whole * (static_cast<double>(block) + place_in_block(block)) / static_cast<double>(blocks);
+    const auto next = std::lower_bound(t.begin(), t.end(), at);
+    const auto place = static_cast<std::size_t>(next - t.begin());
+    if (place > chosen.back() && place < t.size()) chosen.push_back(place);
+  }
+  return chosen;
+}
+
+std::vector<double> ranks_of(const std::vector<double>& x) {
+  std::vector<double> sorted = x;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> ranks;
+  for (const double each : x) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), each);
+    ranks.push_back(static_cast<double>((first - sorted.begin()) + (last - sorted.begin()) - 1) / 2);
+  }
+  return ranks;
+}
+
+/// Oscillations of the rate at which the energy changes from block to block, among the ranks of the rates: a drift
+/// beneath them changes nothing, and how high a rare peak is counts for little.
+std::optional<double> periods_of_rate(const std::vector<double>& t, const std::vector<double>& x) {
+  std::vector<double> rate;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) rate.push_back((x[i + 1] - x[i]) / (t[i + 1] - t[i]));
+  const std::vector<double> rank = ranks_of(rate);
+  Swings swings;
+  for (std::size_t i = 0; i < rank.size(); ++i) swings.look(static_cast<std::int64_t>(i), rank[i]);
+  const auto seen = swings.seen(static_cast<std::int64_t>(rank.size()) - 1);
+  return seen ? std::optional<double>(seen->periods) : std::nullopt;
+}
+
+/// The smallest difference of two energies that are not the same: that of numbers with few digits is their last digit.
+double smallest_difference(std::vector<double> energy) {
+  std::sort(energy.begin(), energy.end());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < energy.size(); ++i) {
+    if (energy[i] > energy[i - 1]) smallest = std::min(smallest, energy[i] - energy[i - 1]);
+  }
+  return std::isfinite(smallest) ? smallest : 0;
+}
+
+/// A straight line by least squares, and what is left of the values.
+struct Line {
+  double slope = 0;
+  double slope_error = 0;  // the standard error, of independent values
+  double deviation = 0;    // the standard deviation of the rest
+  std::vector<double> rest{};
+};
+Line fitted_line(const std::vector<double>& t, const std::vector<double>& x) {
+  const double count = static_cast<double>(t.size());
+  const double mean_t = std::accumulate(t.begin(), t.end(), 0.0) / count;
+  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count;
+  Line line{fitted_slope(t, x)};
+  double squares = 0;
+  double tt = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    line.rest.push_back(x[i] - mean_x - line.slope * (t[i] - mean_t));
+    squares += line.rest.back() * line.rest.back();
+    tt += (t[i] - mean_t) * (t[i] - mean_t);
+  }
+  line.deviation = std::sqrt(squares / (count - 2));
+  line.slope_error = line.deviation / std::sqrt(tt);
+  return line;
+}
+
+/// Whether x is a straight line in time to a ten-thousandth of its change. An oscillation of the energy that looks like
+/// that, sin(phi) with |phi| < 1/40, takes more than a hundred times as long as the log.
+bool is_straight(const std::vector<double>& t, const std::vector<double>& x) {
+  constexpr double straight = 1e-4;
+  const Line line = fitted_line(t, x);
+  const double most = straight * std::abs(x.back() - x.front());
+  return std::all_of(line.rest.begin(), line.rest.end(), [&](double rest) { return std::abs(rest) < most; });
+}
+
+/// Whether E, or log |E| of an energy that decays or grows exponentially, is a straight line.
+bool goes_straight(const std::vector<double>& t, const std::vector<double>& energy) {
+  if (is_straight(t, energy)) return true;
+  std::vector<double> logarithms;
+  for (const double e : energy) {
+    if (!(e * energy.front() > 0)) return false;
+    logarithms.push_back(std::log(e / energy.front()));
+  }
+  return is_straight(t, logarithms);
+}
+
+/// Whether the energy is a straight line and independent noise, at all samples: neighbouring values of the noise know
+/// nothing of each other, as those of a walk or of a slow oscillation would, and the mean of each eighth of the log
+/// lies on the line.
+bool is_line_beneath_noise(const std::vector<double>& t, const std::vector<double>& x) {
+  constexpr double clear_change = 4;  // standard deviations of the noise
+  constexpr double most_correlation = 0.2;
+  constexpr double errors = 4;
+  constexpr std::size_t parts = 8;
+  const Line line = fitted_line(t, x);
+  if (!(std::abs(line.slope) * (t.back() - t.front()) > clear_change * line.deviation)) return false;
+  double neighbours = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < line.rest.size(); ++i) {
+    squares += line.rest[i] * line.rest[i];
+    if (i > 0) neighbours += line.rest[i] * line.rest[i - 1];
+  }
+  if (std::abs(neighbours) > most_correlation * squares) return false;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * t.size() / parts;
+    const std::size_t end = (part + 1) * t.size() / parts;
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += line.rest[i];
+    if (std::abs(sum) > errors * line.deviation * std::sqrt(static_cast<double>(end - begin))) return false;
+  }
+  return line.deviation > 0;
+}
+
+/// The lines through the four quarters of the log.
+std::vector<Line> quarters(const std::vector<double>& t, const std::vector<double>& x) {
+  std::vector<Line> all;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const auto begin = static_cast<std::ptrdiff_t>(quarter * t.size() / 4);
+    const auto end = static_cast<std::ptrdiff_t>((quarter + 1) * t.size() / 4);
+    all.push_back(fitted_line({t.begin() + begin, t.begin() + end}, {x.begin() + begin, x.begin() + end}));
+  }
+  return all;
+}
+
+/// The rate of a drift in a quarter of the log over that of the whole; none where they differ by no more than noise, or
+/// the change itself, explains. What drifts by a part of the scale is another motion then, with another drift.
+/// @param change of the energy, over the scale
+std::optional<double> unsteady_rate(const std::vector<double>& t, const std::vector<double>& x, double change) {
+  constexpr double steady = 0.05;  // an oscillation is so straight for a fifth of its period
+  constexpr double of_the_change = 16;
+  constexpr double errors = 3;
+  const double whole = fitted_line(t, x).slope;
+  for (const Line& part : quarters(t, x)) {
+    const double off = std::abs(part.slope - whole);
+    if (off > (steady + of_the_change * change) * std::abs(whole) && off > errors * part.slope_error) {
+      return part.slope / whole;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether the energy goes one way throughout a quarter of the log.
+bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
+  constexpr double errors = 4;
+  const std::vector<Line> all = quarters(t, x);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Line& part) { return std::abs(part.slope) > errors * part.slope_error; });
+}
+
+void leave_undecided(RunDrift& drift, std::string reason) {
+  drift.drift.reset();
+  drift.reason = std::move(reason);
+}
+
+}  // namespace
+
+std::optional<std::size_t> first_time_that_does_not_rise(const std::vector<double>& t) {
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    if (!(t[i] > t[i - 1])) return i;
+  }
+  return std::nullopt;
+}
+
+LogCertificate certify_log(const std::vector<double>& t, const std::vector<double>& energy,
+                           std::optional<double> scale) {
+  check_log(t, energy, scale);
+  LogCertificate found;
+  found.samples = t.size();
+  double largest_energy = 0;
+  double largest_deviation = 0;
+  for (const double e : energy) {
+    largest_energy = std::max(largest_energy, std::abs(e));
+    largest_deviation = std::max(largest_deviation, std::abs(e - energy.front()));
+  }
+  if (scale) {
+    found.scale = scale;
+  } else if (energy.front() != 0) {
+    found.scale = std::abs(energy.front());
+  }
+  if (found.scale) found.energy_level = largest_deviation / *found.scale;
+  if (t.size() <= static_cast<std::size_t>(RunDrift::fewest_blocks)) {
+    leave_undecided(found.drift, fmt::format("{} samples are too few; a drift class needs {}", t.size(),
+                                             RunDrift::fewest_blocks + 1));
+    return found;
+  }
+  const std::vector<std::size_t> chosen = is_equidistant(t) ? equidistant_blocks(t.size()) : resampled_blocks(t);
+  if (chosen.size() <= static_cast<std::size_t>(RunDrift::fewest_blocks)) {
+    leave_undecided(found.drift,
+                    fmt::format("the samples are too unevenly spaced: a drift class needs one in each half "
+                                "of {} parts of the log of equal duration",
+                                RunDrift::fewest_blocks + 1));
+    return found;
+  }
+  std::vector<double> times;
+  std::vector<double> energies;
+  EnergySeries series;
+  for (const std::size_t i : chosen) {
+    times.push_back(t[i]);
+    energies.push_back(energy[i]);
+    series.deviations.push_back(energy[i] - energy.front());
+  }
+  series.periods = periods_of_rate(times, series.deviations);
+  constexpr double parts_over_whole = 4;  // a log does not tell how large the kinetic and the potential energy are
+  series.rounding = std::max(parts_over_whole * epsilon * largest_energy, smallest_difference(energy) / 2);
+  series.roundings = static_cast<double>(t.size() - 1);
+  series.scale = found.scale.value_or(largest_energy);
+  found.drift = classify_run(series);
+  if (largest_deviation == 0) {
+    leave_undecided(found.drift, "all energies of the log are the same number: a log with more digits would tell");
+  } else if (found.drift.drift == DriftClass::linear) {
+    if (const auto rate = unsteady_rate(times, series.deviations, largest_deviation / series.scale)) {
+      leave_undecided(found.drift,
+                      fmt::format("the energy goes one way, but in a quarter of the log at {:.2g} times the mean rate: "
+                                  "an oscillation slower than the log begins like a drift",
+                                  *rate));
+    }
+  } else if (found.drift.drift == DriftClass::bounded) {
+    if (moves_slowly(times, series.deviations)) {
+      leave_undecided(
+          found.drift,
+          "no drift is seen, but the energy goes one way throughout a quarter of the log: an oscillation as "
+          "slow as that has to be seen 16 times");
+    }
+  } else if (!found.drift.drift && goes_straight(times, energies)) {
+    found.drift.drift = DriftClass::linear;
+    found.drift.reason = "the energy goes one way at a constant rate, to a ten-thousandth of its change";
+  } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&
+             is_line_beneath_noise(t, energy)) {  // above what roundings to one side sum up to by chance
+    found.drift.drift = DriftClass::linear;
+    found.drift.reason = "a straight line beneath independent noise";
+  }
+  return found;
+}
+
+}  // namespace hamflow
