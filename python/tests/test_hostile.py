@@ -75,6 +75,12 @@ def observed(told):
     sim.advance(2)
 
 
+def leapfrog(q, p, h):
+    p = p - h / 2 * q
+    q = q + h * p
+    return q, p - h / 2 * q
+
+
 def propagated(problem=PENDULUM, method="stv4", q=((1,),), p=((0,),), **keys):
     hf.propagate(problem, method, q, p, **({"dt": 0.1, "steps": 2} | keys))
 
@@ -173,6 +179,16 @@ CALLS = {
     "convert: (q, p)": lambda x: hf.convert((x, x), start="cartesian", to="polar"),
     "convert: start": lambda x: hf.convert(([1, 0], [0, 1]), start=x, to="polar"),
     "convert: method": lambda x: hf.convert(SCENARIO, to="cartesian", method=x),
+    "certify": lambda x: hf.certify(x, x),
+    "certify: energy": lambda x: hf.certify(np.arange(100.0), x),
+    "certify: scale": lambda x: hf.certify(np.arange(100.0), np.sin(np.arange(100.0)) + 5, scale=x),
+    "certify_step": lambda x: hf.certify_step(x, "harmonic"),
+    "certify_step: problem": lambda x: hf.certify_step(leapfrog, x),
+    "certify_step: order": lambda x: hf.certify_step(leapfrog, "harmonic", order=x),
+    "certify_step: symplectic": lambda x: hf.certify_step(leapfrog, "harmonic", symplectic=x),
+    "certify_step: preserves": lambda x: hf.certify_step(leapfrog, "harmonic", preserves=x),
+    "certify_step: what a step returns": lambda x: hf.certify_step(lambda q, p, h: x, "harmonic"),
+    "certify_step: a part of it": lambda x: hf.certify_step(lambda q, p, h: (q, x), "harmonic"),
     "sin": lambda x: hf.sin(x),
     "atan2": lambda x: hf.atan2(x, 1),
 }

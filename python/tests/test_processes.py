@@ -2,6 +2,7 @@
 
 import multiprocessing
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -188,6 +189,20 @@ def test_ctrl_c(name, tmp_path):
     code = INTERRUPTED.replace("CALL", call).replace("CHECK", check)
     done = subprocess.run([sys.executable, "-B", "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout) == (0, "fine\n"), done.stderr
+
+
+def test_ctrl_c_of_certify_step():
+    calls = []
+
+    def step(q, p, h):
+        calls.append(h)
+        if len(calls) == 50:
+            signal.raise_signal(signal.SIGINT)
+        return q + h * p, p - h * (q + h * p)
+
+    with pytest.raises(KeyboardInterrupt):
+        hf.certify_step(step, "harmonic")
+    assert hf.certify_step(step, "harmonic", order=1).agrees
 
 
 def test_an_interrupted_folder_goes_on_to_the_bit(tmp_path):
