@@ -5,21 +5,25 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 
 import hamflow as hf
 
-
-def acceleration(q):
-    return -q / np.dot(q, q) ** 1.5
+Array = npt.NDArray[np.float64]
 
 
-def leapfrog(q, p, h):
+def acceleration(q: Array) -> Array:
+    pull: Array = -q / np.dot(q, q) ** 1.5
+    return pull
+
+
+def leapfrog(q: Array, p: Array, h: float) -> tuple[Array, Array]:
     p = p + h / 2 * acceleration(q)
     q = q + h * p
     return q, p + h / 2 * acceleration(q)
 
 
-def wrong_leapfrog(q, p, h):
+def wrong_leapfrog(q: Array, p: Array, h: float) -> tuple[Array, Array]:
     q = q + h * p + h**2 / 2 * acceleration(q)
     return q, p + h * acceleration(q)  # the acceleration at the new place alone: the mean of both was meant
 

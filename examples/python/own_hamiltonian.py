@@ -1,5 +1,7 @@
 """A Hamiltonian of one's own, as a Python function: a rotor whose moment of inertia depends on an angle."""
 
+from typing import Any
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -8,7 +10,7 @@ import matplotlib.pyplot as plt
 import hamflow as hf
 
 
-def energy(q, p):
+def energy(q: Any, p: Any) -> Any:
     return (p[0] ** 2 + p[1] ** 2 / (2 + hf.cos(q[0]))) / 2 - hf.cos(q[0])
 
 

@@ -8,15 +8,17 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+import numpy.typing as npt
 from mpi4py.futures import MPIPoolExecutor
 
 import hamflow as hf
 
 
-def exponents(values):
+def exponents(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     base = {"problem": {"name": "henon-heiles", "initial": {"q": [0, 0], "p": ["+", 0], "energy": 0.125}},
             "method": {"name": "stv4"}, "run": {"dt": 0.1, "steps": 5000, "lyapunov": 1}}
-    return hf.sweep(base, {"problem.initial.q[1]": values}, threads=1, progress=False)["observables/lyapunov1"]
+    ens = hf.sweep(base, {"problem.initial.q[1]": values}, threads=1, progress=False)
+    return np.asarray(ens["observables/lyapunov1"])
 
 
 if __name__ == "__main__":

@@ -53,6 +53,8 @@ class Infos(list):  # type: ignore[type-arg]
 
 def methods(problem: Problem | None = None, /) -> Infos:
     """The methods, or those that take a problem: name, summary, order, symplectic, symmetric, reversible, ..."""
+    if problem is not None and not isinstance(problem, Problem):
+        raise TypeError(f"problem: found {type(problem).__name__}; allowed a Problem, or nothing")
     found = [SimpleNamespace(**each) for each in _core.methods()]
     return Infos(each for each in found if problem is None or problem._core.accepts(each.name))
 

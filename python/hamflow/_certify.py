@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import Error
+from ._errors import Error, shown
 from ._problem import Problem
 from ._scenario import Scenario
 
@@ -109,8 +109,8 @@ def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None)
     >>> hf.certify(t, -0.5 + 1e-6*np.sin(3*t) + 1e-7*t).drift
     'linear'
     """
-    if scale is not None and (isinstance(scale, (bool, str)) or not np.isscalar(scale)):
-        raise Error(f"scale: found {scale!r}; allowed a positive number")
+    if scale is not None and (isinstance(scale, (bool, str)) or np.ndim(scale) != 0):
+        raise Error(f"scale: found {shown(scale)}; allowed a positive number")
     return LogCertificate(_core.certify_log(_column(t, "t"), _column(energy, "energy"), scale))
 
 
@@ -147,7 +147,7 @@ class StepCertificate:
 def _claim(value: bool | None, name: str) -> bool | None:
     if value is None or isinstance(value, (bool, np.bool_)):
         return None if value is None else bool(value)
-    raise Error(f"{name}: found {value!r}; allowed True, False or None")
+    raise Error(f"{name}: found {shown(value)}; allowed True, False or None")
 
 
 def _step_problem(problem: Any) -> Any:
@@ -155,7 +155,7 @@ def _step_problem(problem: Any) -> Any:
         if problem not in _step_problems:
             near = difflib.get_close_matches(problem, _step_problems, 1)
             meant = f"; did you mean {near[0]}?" if near else ""
-            raise Error(f"problem: found {problem!r}; allowed {', '.join(_step_problems)}, or a hamflow.Problem{meant}")
+            raise Error(f"problem: found {shown(problem)}; allowed {', '.join(_step_problems)}, or a hamflow.Problem{meant}")
         problem = _step_problems[problem]
     table = problem.table if isinstance(problem, Problem) else problem
     if not isinstance(table, Mapping):
@@ -223,12 +223,12 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
         try:
             order = operator.index(order)
         except TypeError:
-            raise Error(f"order: found {order!r}; allowed a whole number from 1") from None
+            raise Error(f"order: found {shown(order)}; allowed a whole number from 1") from None
         if isinstance(order, bool) or not 1 <= order <= 1000:
-            raise Error(f"order: found {order!r}; allowed a whole number from 1")
+            raise Error(f"order: found {shown(order)}; allowed a whole number from 1")
     names = [preserves] if isinstance(preserves, str) else list(preserves)
     if not all(isinstance(name, str) for name in names):
-        raise Error(f"preserves: found {preserves!r}; allowed names")
+        raise Error(f"preserves: found {shown(preserves)}; allowed names")
     names = [name.replace(" ", "_") for name in names]
     return StepCertificate(_core.certify_step(step, _step_problem(problem), order, _claim(symplectic, "symplectic"),
                                               _claim(symmetric, "symmetric"), names))

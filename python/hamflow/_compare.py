@@ -7,10 +7,10 @@ import os
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, NoReturn, Sequence
 
 from . import _core, _html
-from ._errors import Error, raise_with_partial
+from ._errors import Error, stopped
 from ._run import Progress, progress_of_both
 from ._scenario import text_of
 
@@ -76,6 +76,9 @@ class Compare:
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Compare cannot be pickled, as its figures are memory of C++; pass its rows, or its summary")
 
     def __repr__(self) -> str:
         methods = dict.fromkeys(row["method"] for row in self.rows)
@@ -143,10 +146,9 @@ def compare(scenario: Any, /, *, methods: Sequence[str] | str, dt: Sequence[Any]
                           [_number(each) for each in sizes], Path(out) if out is not None else "", existing,
                           progress_of_both(progress))
     result = Compare(found["report"], found["notes"])
-    raise_with_partial(found["raised"], result)
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     if result.status == "failed":
         report = found["report"]
-        failed = Error(f"{report.message}; {report.hint}" if report.hint else report.message)
-        failed.partial = result  # type: ignore[attr-defined]
-        raise failed
+        raise stopped(Error(f"{report.message}; {report.hint}" if report.hint else report.message), result)
     return result

@@ -9,7 +9,7 @@ from typing import Any, overload
 import numpy as np
 
 from . import _core
-from ._errors import Error
+from ._errors import Error, shown
 from ._problem import Numbers
 from ._run import Run, open
 from ._scenario import Scenario, scenario_of
@@ -88,6 +88,8 @@ def convert(given: Any, /, *, to: str, start: str | None = None, method: str | N
         if note:
             warnings.warn(note, stacklevel=2)
         return Trajectory(table, coordinates, momenta, digits)
+    if method is not None and not isinstance(method, str):
+        raise TypeError(f"method: found {shown(method)}; allowed a text")
     scenario = scenario_of(given)
     sets = [] if method is None else [f'method.name="{method}"']
     text, notes = _core.convert_scenario(scenario._core, to, sets)

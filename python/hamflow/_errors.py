@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import reprlib
+from typing import Any, TypeVar
+
+AnyException = TypeVar("AnyException", bound=BaseException)
+
 
 class Error(ValueError):
     """A request that is refused. The message names what is wrong and what is allowed."""
@@ -20,7 +25,7 @@ class Rejection(Error):
         self.errors = [tuple(each) for each in errors]
         super().__init__("\n".join(f"{key}: {message}" if key else message for key, message in self.errors))
 
-    def __reduce__(self):  # type: ignore[no-untyped-def]
+    def __reduce__(self) -> tuple[Any, ...]:
         return (Rejection, (self.errors,))
 
 
@@ -44,16 +49,8 @@ class StepFailed(Error):
         super().__init__(f"{message}; {hint}" if hint else message)
         self._given = (message, kind, step, t, hint)
 
-    def __reduce__(self):  # type: ignore[no-untyped-def]
+    def __reduce__(self) -> tuple[Any, ...]:
         return (StepFailed, self._given)
-
-
-def raise_with_partial(raised: BaseException | None, partial: object) -> None:
-    """Raises what Python raised while C++ computed, such as KeyboardInterrupt; its attribute `partial` is what is there."""
-    if raised is None:
-        return
-    raised.partial = partial  # type: ignore[attr-defined]
-    raise raised
 
 
 class FileError(Error, OSError):
@@ -61,3 +58,14 @@ class FileError(Error, OSError):
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
+
+
+def shown(found: Any) -> str:
+    """A value in a message: its repr, of which what is long or deep is left out."""
+    return reprlib.repr(found)
+
+
+def stopped(error: AnyException, partial: Any) -> AnyException:
+    """The error that ended a computation early, with what there is as its attribute `partial`."""
+    error.partial = partial  # type: ignore[attr-defined]
+    return error

@@ -51,10 +51,18 @@ def draw(page: Mapping[str, Any], ax: Any = None) -> Any:
         axes = np.ravel(np.asarray(ax, dtype=object))
         if len(axes) != 1 and len(axes) < len(panels):
             raise Error(f"ax: found {len(axes)} axes; allowed one, or {len(panels)}, one for each panel")
+    for each in axes:
+        require_axes(each)
     for panel, each in zip(panels, axes):
         _panel(panel, each)
     _legend(page, axes)
     return axes[0] if len(axes) == 1 else axes
+
+
+def require_axes(ax: Any) -> None:
+    """Raises TypeError where these are no axes of matplotlib."""
+    if not hasattr(ax, "set_xlabel"):
+        raise TypeError(f"ax: found {type(ax).__name__}; allowed axes of matplotlib")
 
 
 def svg(page: Mapping[str, Any]) -> str:

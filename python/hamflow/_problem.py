@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _html
-from ._errors import Error
+from ._errors import Error, shown
 from ._trace import traced
 
 Numbers = npt.NDArray[np.float64]
@@ -80,6 +80,8 @@ class Problem:
             names = list(coordinates) if coordinates is not None else _numbered(dimension, hamiltonian)
             if callable(hamiltonian) and not hasattr(hamiltonian, "free_symbols"):
                 text = traced(hamiltonian, names, momentum_names(names))
+            elif not isinstance(hamiltonian, str) and not hasattr(hamiltonian, "free_symbols"):
+                raise TypeError(f"hamiltonian: found {shown(hamiltonian)}; allowed a text, a function, a SymPy expression, or a dict")
             else:
                 text = str(hamiltonian).replace("**", "^")
             self.table = {"name": "formula", "coordinates": names, "hamiltonian": text} | keys
@@ -169,8 +171,8 @@ def _numbered(dimension: int | None, hamiltonian: Any) -> list[str]:
             from ._errors import Error
             raise Error(f"no problem {hamiltonian}; there are {', '.join(names)}")
         raise TypeError("coordinates: missing; allowed a list of names, or dimension=")
-    if isinstance(dimension, bool) or not isinstance(dimension, (int, np.integer)) or dimension < 1:
-        raise TypeError(f"dimension: found {dimension!r}; allowed a whole number from 1")
+    if isinstance(dimension, bool) or not isinstance(dimension, (int, np.integer)) or not 1 <= dimension <= 100_000:
+        raise TypeError(f"dimension: found {shown(dimension)}; allowed a whole number from 1 to 100000")
     return ["q"] if dimension == 1 else [f"q{i + 1}" for i in range(dimension)]
 
 

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from . import _core, _html
 from ._digits import decimals
-from ._errors import Error, FileError, StepFailed, raise_with_partial
+from ._errors import Error, FileError, StepFailed, shown, stopped
 from ._scenario import Scenario, scenario_of
 
 Numbers = npt.NDArray[np.float64]
@@ -112,7 +112,7 @@ class Run:
         for place in (name, "observables/" + name, "invariants/" + name):
             if place in self._samples:
                 return self._samples[place]
-        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
+        raise KeyError(f"no column {shown(name)}; there are {', '.join(self.columns)}")
 
     def digits(self, name: str) -> npt.NDArray[Any]:
         """t, q, p or energy with all their digits, as an array of decimal.Decimal.
@@ -120,8 +120,10 @@ class Run:
         Raises
         ------
         Error
-            In double, where the columns have all digits.
+            In double, where the columns have all digits, and of other columns.
         """
+        if name not in ("t", "q", "p", "energy"):
+            raise Error(f"name: found {shown(name)}; allowed t, q, p, energy")
         return decimals(self._samples, name)
 
     @property
@@ -135,13 +137,13 @@ class Run:
         return _as_attributes(self.summary.get("lyapunov"))
 
     @property
-    def section(self) -> States | None:
-        """The points of run.section."""
+    def section(self) -> States | Any:  # None is not in the type: who asks for a section knows that there is one
+        """The points of run.section; None without one."""
         return States(self._tables.section) if self._tables.section is not None else None
 
     @property
-    def bounces(self) -> States | None:
-        """The bounces off hard walls that were recorded."""
+    def bounces(self) -> States | Any:
+        """The bounces off hard walls that were recorded; None where there are none."""
         return States(self._tables.bounces) if self._tables.bounces is not None else None
 
     @property
@@ -212,10 +214,13 @@ class Run:
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes the folder that `hamflow run` leaves: the run is copied, or carried out once more, with the same bits."""
         to = Path(folder)
-        if to.exists():
+        if os.path.lexists(to):
             raise FileError(f"{to} exists; choose another folder")
         if self.folder is not None:
-            shutil.copytree(self.folder, to)
+            try:
+                shutil.copytree(self.folder, to)
+            except OSError as error:
+                raise FileError(f"{to}: {error}") from error
         else:
             _core.run(self.scenario._core, to, "error", None)
         return to
@@ -359,7 +364,7 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
         raise Error(f"digits: found True in {wanted._core.arithmetic} arithmetic, whose numbers are doubles; allowed with "
                     "run.arithmetic = \"double-double\", \"quad\" or \"mp(d)\"")
     if out is None and existing != "error":
-        raise Error(f"existing: found {existing!r} without out=; allowed with a folder")
+        raise Error(f"existing: found {shown(existing)} without out=; allowed with a folder")
     folder = None if out is None else Path(out)
     tell = _progress(progress, wanted.steps)
     found = _core.run(wanted._core, folder if folder is not None else "", existing, tell)
@@ -368,18 +373,16 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
         result = Run(wanted, opened["tables"], found["json"], folder, digits, found["notes"])
     else:
         result = Run(wanted, found["tables"], found["json"], None, digits, found["notes"])
-    raise_with_partial(found["raised"], result)
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     if tell is not None:
         tell(int(result.summary.get("steps", 0)))
     if found["file_trouble"]:
-        trouble = FileError(found["file_trouble"])
-        trouble.partial = result  # type: ignore[attr-defined]
-        raise trouble
+        raise stopped(FileError(found["file_trouble"]), result)
     if result.status == "failed":
         why = result.summary.get("error", {})
-        failed = StepFailed(found["message"], why.get("kind", ""), why.get("step", 0) - 1, why.get("t", 0.0), found["hint"])
-        failed.partial = result  # type: ignore[attr-defined]
-        raise failed
+        raise stopped(StepFailed(found["message"], why.get("kind", ""), why.get("step", 0) - 1, why.get("t", 0.0), found["hint"]),
+                      result)
     return result
 
 

@@ -6,7 +6,7 @@ import os
 from typing import Any, Mapping
 
 from . import _core
-from ._errors import Error
+from ._errors import Error, shown
 from ._problem import Problem
 
 
@@ -62,6 +62,8 @@ class Scenario:
 
     def set(self, key: str, value: Any) -> None:
         """Sets one key by its dotted path, such as "run.steps"; all is checked again."""
+        if not isinstance(key, str):
+            raise TypeError(f"key: found {shown(key)}; allowed a text such as \"run.steps\"")
         self._read(self._core.text, self._name, [f"{key}={_core.value_text(value)}"])
 
     @property
@@ -106,7 +108,7 @@ def tables_of(tree: Mapping[str, Any]) -> dict[str, Any]:
         elif isinstance(table, Mapping):
             tables[name] = dict(table)
         else:
-            raise Error(f"{name}: found {table!r}; allowed a table, as a dict")
+            raise Error(f"{name}: found {shown(table)}; allowed a table, as a dict")
     return tables
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from decimal import Decimal
 from types import SimpleNamespace
 from typing import Any, Callable, Sequence
@@ -11,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._digits import decimals
-from ._errors import Error
+from ._errors import Error, shown
 from ._problem import Problem, _list
 from ._scenario import Scenario
 
@@ -57,7 +58,7 @@ class Trajectory:
             return self.p[:, self.momenta.index(name)]
         if name in ("t", "q", "p", "energy", "step"):
             return getattr(self, name)
-        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
+        raise KeyError(f"no column {shown(name)}; there are {', '.join(self.columns)}")
 
     def __len__(self) -> int:
         return len(self.t)
@@ -104,7 +105,7 @@ class Simulation:
     True
     """
 
-    __slots__ = ("_core", "coordinates", "momenta", "__weakref__")
+    __slots__ = ("_core", "_observers", "coordinates", "momenta", "__weakref__")
 
     def __init__(self, problem: Problem | str | dict[str, Any], /, *, method: str | dict[str, Any] = "stv4", dt: float | str,
                  q: Any = None, p: Any = None, v: Any = None, arithmetic: str = "double", threads: int = 1,
@@ -126,6 +127,7 @@ class Simulation:
 
     def _begin(self, core: Any) -> None:
         self._core = core
+        self._observers: list[Callable[[Simulation], Any]] = []
         scenario = core.scenario
         self.coordinates: list[str] = list(scenario.coordinates)
         self.momenta: list[str] = list(scenario.momenta)
@@ -157,7 +159,7 @@ class Simulation:
         """
         steps = (t - self.t) / self.dt
         if not np.isfinite(steps):
-            raise Error(f"t: found {t!r}; allowed finite times")
+            raise Error(f"t: found {shown(t)}; allowed finite times")
         whole = round(steps)
         if not abs(steps - whole) <= 1e-9 * max(1.0, abs(steps)):
             raise Error(f"t: found {t!r}, which is no whole number of steps from t = {self.t!r}; the nearest are "
@@ -287,7 +289,15 @@ class Simulation:
         Where it returns "stop", advance(), integrate() and sample() end at that step; `step` tells where.
         """
         def decorate(function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
-            self._core.watch(every, lambda: function(self))
+            # C++ keeps no reference to the function or the simulation, as a cycle through C++ is never freed.
+            itself, place = weakref.ref(self), len(self._observers)
+
+            def told() -> Any:
+                simulation = itself()
+                return simulation._observers[place](simulation) if simulation is not None else None
+
+            self._core.watch(every, told)
+            self._observers.append(function)
             return function
 
         return decorate

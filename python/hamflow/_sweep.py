@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _html
-from ._errors import Error, raise_with_partial
+from ._errors import Error, shown, stopped
+from ._page import require_axes
 from ._run import Progress, States, progress_of_both
 from ._scenario import scenario_of
 
@@ -93,11 +94,12 @@ class Sweep:
             raise Error(f"plot: found {len(keys)} varied keys of numbers; allowed one or two")
         if colour not in self.columns or not self._is_number(colour):
             numbers = [name for name in self.columns if self._is_number(name) and name not in keys]
-            raise Error(f"colour: found {colour!r}; allowed {', '.join(numbers)}")
+            raise Error(f"colour: found {shown(colour)}; allowed {', '.join(numbers)}")
         if ax is None:
             import matplotlib.pyplot as plt
 
             _, ax = plt.subplots()
+        require_axes(ax)
         values = np.where(np.array(self.status) == "done", self[colour], np.nan)
         x = self[keys[0]]
         ax.set_xlabel(keys[0].removeprefix("varied/"))
@@ -144,6 +146,8 @@ class Sweep:
 def _varied(key: str, values: Any) -> str:
     if isinstance(values, str):
         return f"{key}={values}"
+    if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.ndim == 1 and values.size:
+        return str(_core.varied_text(key, values))
     items = values.tolist() if isinstance(values, np.ndarray) else list(values)
     if not items:
         raise Error(f"{key}: found no values; allowed at least one")
@@ -194,13 +198,18 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     ((3, 1), ['done', 'done', 'done'])
     """
     wanted = scenario_of(scenario)
+    if not isinstance(varied, Mapping):
+        raise TypeError(f"varied: found {type(varied).__name__}; allowed a dict of keys and their values")
+    if client is not None and not hasattr(client, "nthreads"):
+        raise TypeError(f"client: found {type(client).__name__}; allowed a dask.distributed.Client")
     if client is not None:
         return _on_cluster(client, str(wanted), [_varied(key, values) for key, values in varied.items()], zip, out,
                            existing, progress)
     found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
                         Path(out) if out is not None else "", existing, progress_of_both(progress))
     result = Sweep(found)
-    raise_with_partial(found["raised"], result)
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     return result
 
 
@@ -218,11 +227,12 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
     # Several parts for each thread: a part of a worker that dies is run again on another one.
     count = max(1, min(members, 4 * sum(client.nthreads().values())))
     told = progress_of_both(progress)
+    completed: Any = as_completed  # has no types
     futures = client.map(_shard, [text] * count, [varied] * count, [zip] * count, range(count),
                          [count] * count, pure=False)
     trouble: BaseException | None = None
     try:
-        for done, future in enumerate(as_completed(futures), 1):
+        for done, future in enumerate(completed(futures), 1):
             gathered.take(future.result())
             if told is not None:
                 told(members * done // count, members)
@@ -236,8 +246,7 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
         cause = trouble
         trouble = Error(f"the cluster failed: {type(cause).__name__}: {cause}")
         trouble.__cause__ = cause
-    trouble.partial = result  # type: ignore[union-attr]
-    raise trouble
+    raise stopped(trouble, result)
 
 
 def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, *, dt: float | str, steps: int,
@@ -281,6 +290,8 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
     n, d = q0.shape
     varied: dict[str, Any] = {f"problem.initial.q[{i}]": q0[:, i] for i in range(d)}
     varied |= {f"problem.initial.p[{i}]": p0[:, i] for i in range(d)}
+    if parameters is not None and not isinstance(parameters, Mapping):
+        raise TypeError(f"parameters: found {type(parameters).__name__}; allowed a dict of names and values")
     for name, value in (parameters or {}).items():
         path = f"problem.parameters.{name}" if chosen.name == "formula" else f"problem.{name}"
         if np.ndim(value) == 1:
@@ -295,10 +306,8 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
 
     scenario = Scenario(problem=table, method=method, run={"dt": dt, "steps": steps, "certificate": False})
     members = sweep(scenario, varied, zip=True, progress=False)
-    bad = [k for k, status in enumerate(members.status) if status != "done"]
-    if bad:
+    if members.summary["done"] != n:
+        bad = [k for k, status in enumerate(members.status) if status != "done"]
         more = f"; {len(bad)} of {n} members failed" if len(bad) > 1 else ""
-        error = Error(f"member {bad[0]} ended as {members.status[bad[0]]}: {(members.failures or [''])[0]}{more}")
-        error.partial = members  # type: ignore[attr-defined]
-        raise error
+        raise stopped(Error(f"member {bad[0]} ended as {members.status[bad[0]]}: {(members.failures or [''])[0]}{more}"), members)
     return np.array(members["final/q"]), np.array(members["final/p"])

@@ -132,7 +132,11 @@ def _function(name: str, count: int = 1) -> Callable[..., Any]:
     def function(*x: Any) -> Any:
         if len(x) != count:
             raise TypeError(f"{name} takes {count} argument{'s' if count > 1 else ''}, found {len(x)}")
-        return getattr(np, ufunc)(*x)
+        try:
+            return getattr(np, ufunc)(*x)
+        except AttributeError as error:  # NumPy looks for a method of this name
+            found = ", ".join(type(each).__name__ for each in x)
+            raise TypeError(f"{name}: found {found}; allowed numbers, arrays of numbers, and symbols") from error
 
     function.__name__ = name
     function.__doc__ = f"{name} of symbols and numbers, for Hamiltonians given as Python functions."

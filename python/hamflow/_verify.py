@@ -6,7 +6,7 @@ import json
 from typing import Any, Sequence
 
 from . import _core, _html
-from ._errors import raise_with_partial
+from ._errors import stopped
 
 
 class Verification:
@@ -82,5 +82,6 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
         raise TypeError("verify takes methods, or all=True")
     found = _core.verify(names, all, problem or "")
     result = Verification(found)
-    raise_with_partial(found["raised"], result)
+    if found["interrupted"] is not None:
+        raise stopped(found["interrupted"], result)
     return result

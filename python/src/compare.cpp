@@ -47,7 +47,7 @@ py::dict compare_in_python(const ComparisonInput& input, const std::filesystem::
   py::dict found;
   found["report"] = report;
   found["notes"] = reading.notes;
-  found["raised"] = interrupts.raised();
+  found["interrupted"] = interrupts.raised();
   return found;
 }
 

@@ -1,4 +1,6 @@
 // C++ exceptions as the classes of hamflow/_errors.py.
+#include <filesystem>
+
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/error.hpp"
@@ -34,6 +36,8 @@ void bind_errors(py::module_& /*m*/) {
       raise("Rejection", all);
     } catch (const FileError& error) {
       raise("FileError", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+      raise("FileError", error.path1().string() + ": " + error.code().message());
     } catch (const Error& error) {
       raise("Error", error.what());
     }

@@ -55,7 +55,7 @@ py::dict run_in_python(const Scenario& scenario, const std::filesystem::path& fo
   found["file_trouble"] = report.file_trouble;
   found["warnings"] = report.warnings;
   found["notes"] = notes;
-  found["raised"] = interrupts.raised();
+  found["interrupted"] = interrupts.raised();
   return found;
 }
 

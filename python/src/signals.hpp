@@ -33,14 +33,17 @@ class Interrupts {
     return !raised_;
   }
   bool was_interrupted() const { return raised_ != nullptr; }
-  /// What Python raised; None where nothing was. To be called with the lock.
+  /// The exception that stopped the computation, a KeyboardInterrupt or what the user's function raised; None without
+  /// one. To be called with the lock.
   pybind11::object raised() const {
-    if (!raised_) return pybind11::none();
     try {
-      std::rethrow_exception(raised_);
+      rethrow();
     } catch (const pybind11::error_already_set& error) {
-      return error.value();
+      pybind11::object value = error.value();
+      if (error.trace()) value.attr("__traceback__") = error.trace();
+      return value;
     }
+    return pybind11::none();
   }
   /// To be called with the lock.
   void rethrow() const {

@@ -50,12 +50,18 @@ class Sampler final : public Observer {
       info.text_size = longest;
       table_.add(std::move(info));
     }
-    for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>((last - first) / every + 2));
+    const std::int64_t samples = (last - first) / every + 1;
+    try {
+      for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>(samples) + 1);
+    } catch (const std::exception&) {  // no memory, or no vector has this length
+      throw Error("steps, every: found " + std::to_string(samples) +
+                  " samples, for which there is no memory; allowed fewer steps, or a larger every");
+    }
   }
   std::int64_t next_due(std::int64_t step) const override {
     if (step <= first_) return first_;
-    const std::int64_t next = first_ + (step - first_ + every_ - 1) / every_ * every_;
-    return next <= last_ ? next : never;
+    const std::int64_t samples = (step - first_ - 1) / every_ + 1;  // no sum of steps may overflow
+    return samples <= (last_ - first_) / every_ ? first_ + samples * every_ : never;
   }
   Verdict observe(const Frame& frame) override {
     std::vector<Column>& columns = table_.columns();
@@ -87,8 +93,8 @@ class Watcher final : public Observer {
  public:
   Watcher(std::int64_t every, py::object told) : every_(every), told_(std::move(told)) {}
   std::int64_t next_due(std::int64_t step) const override {
-    step = std::max(step, seen_ + 1);
-    return (step + every_ - 1) / every_ * every_;
+    const std::int64_t calls = (std::max(step, seen_ + 1) - 1) / every_ + 1;  // no sum of steps may overflow
+    return calls <= never / every_ ? calls * every_ : never;
   }
   Verdict observe(const Frame& frame) override {
     seen_ = frame.step;
@@ -156,8 +162,7 @@ class PySimulation {
 
   /// @return false where an observer has said to stop
   bool advance(std::int64_t steps, Observer* more) {
-    if (steps < 0)
-      throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
+    require_steps(steps);
     if (steps < 100 && has_short_steps() && more == nullptr && watchers_.empty()) {  // over before a signal is due
       const InUse use(*this, false);
       const Outcome reached = simulation_->advance(steps);
@@ -185,10 +190,24 @@ class PySimulation {
     return simulation_->step() == end;
   }
 
+  /// Seconds of `calls` times `steps` steps without Python, for bench/python_bench.py.
+  double seconds_without_python(std::int64_t steps, std::int64_t calls) {
+    require_steps(steps);
+    const InUse use(*this, false);
+    const py::gil_scoped_release unlocked;
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::int64_t k = 0; k < calls; ++k) {
+      if (const Outcome reached = simulation_->advance(steps); is_failure(reached))
+        throw Error(std::string(message(reached)));
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
   std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every, bool digits) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
+    require_steps(steps);
     const std::int64_t first = simulation_->step();
-    Sampler sampler(*scenario_, first, every, first + std::max<std::int64_t>(steps, 0), digits);
+    Sampler sampler(*scenario_, first, every, first + steps, digits);
     (void)advance(steps, &sampler);
     return std::make_shared<Table>(sampler.take());
   }
@@ -258,6 +277,10 @@ class PySimulation {
   }
 
  private:
+  static void require_steps(std::int64_t steps) {
+    if (steps >= 0 && steps <= std::int64_t{1} << 53) return;
+    throw Error("steps: found " + std::to_string(steps) + "; allowed from 0 to 2^53; reverse() turns the motion round");
+  }
   /// Whether 100 steps take no more than some milliseconds.
   bool has_short_steps() const {
     return scenario_->start_q.size() <= 32 && digits_beyond_double(scenario_->request.arithmetic) == 0;
@@ -296,6 +319,7 @@ void bind_simulation(py::module_& m) {
       .def(py::init<std::shared_ptr<Scenario>>())
       .def_property_readonly("scenario", &PySimulation::shared_scenario)
       .def("advance", [](PySimulation& self, std::int64_t steps) { (void)self.advance(steps, nullptr); })
+      .def("seconds_without_python", &PySimulation::seconds_without_python)
       .def("sample", &PySimulation::sample)
       .def("sample_at", &PySimulation::sample_at)
       .def("negate_momenta", &PySimulation::negate_momenta)

@@ -2,11 +2,14 @@
 #include "hamflow/workflow/sweep.hpp"
 
 #include <pybind11/functional.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/text.hpp"
 #include "signals.hpp"
 #include "values.hpp"
 
@@ -27,7 +30,7 @@ std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const 
   return sweep;
 }
 
-py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report) {
+py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, const py::object& interrupted) {
   std::shared_ptr<Table> members;
   std::shared_ptr<Table> sections;
   {
@@ -47,6 +50,7 @@ py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report) {
                     failure.message);
   }
   found["failures"] = failures;
+  found["interrupted"] = interrupted;
   return found;
 }
 
@@ -56,7 +60,7 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
   const Existing what_to_do = existing_named(existing);
   std::unique_ptr<ScenarioSweep> sweep;
   SweepReport report;
-  py::object raised = py::none();
+  py::object interrupted = py::none();
   std::int64_t total = 0;
   {
     const py::gil_scoped_release unlocked;
@@ -68,13 +72,23 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
     });
     report = sweep->run([&](std::int64_t steps) { return asked.go_on(steps); });
     const py::gil_scoped_acquire lock;
-    raised = asked.raised();
+    interrupted = asked.raised();
     asked = Interrupts();
   }
-  if (progress && raised.is_none() && report.status == "done") progress(total, total);
-  py::dict found = found_of(*sweep, report);
-  found["raised"] = raised;
-  return found;
+  if (progress && interrupted.is_none() && report.status == "done") progress(total, total);
+  return found_of(*sweep, report, interrupted);
+}
+
+/// "KEY=x1,x2,...": a key and its values, as the command takes them, without an object of Python for each.
+std::string varied_text(const std::string& key, const py::array_t<double, py::array::c_style>& values) {
+  if (values.ndim() != 1) {
+    throw Error(key + ": found an array with " + std::to_string(values.ndim()) + " dimensions; allowed one");
+  }
+  const std::span<const double> numbers(values.data(), static_cast<std::size_t>(values.size()));
+  const py::gil_scoped_release unlocked;
+  return key + "=" +
+         joined(
+             numbers, [](double x) { return shortest(x); }, ",");
 }
 
 py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& varied, bool zip, std::size_t index,
@@ -111,7 +125,7 @@ class GatheredSweep {
       const py::gil_scoped_release unlocked;
       report = sweep_->report();
     }
-    return found_of(*sweep_, report);
+    return found_of(*sweep_, report, py::none());
   }
 
  private:
@@ -123,6 +137,7 @@ class GatheredSweep {
 void bind_sweep(py::module_& m) {
   m.def("sweep", &sweep_in_python, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("threads"),
         py::arg("folder"), py::arg("existing"), py::arg("progress"));
+  m.def("varied_text", &varied_text, py::arg("key"), py::arg("values"));
   m.def("sweep_shard", &sweep_shard, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("index"),
         py::arg("count"));
   py::class_<GatheredSweep>(m, "GatheredSweep")

@@ -10,9 +10,38 @@ bool is_a(const py::handle& object, const char* module, const char* name) {
   return py::isinstance(object, py::module_::import(module).attr(name));
 }
 
-}  // namespace
+/// Deeper than what any key takes; a list that contains itself has no end.
+constexpr int deepest = 100;
 
-Value value_of(const py::handle& object, const std::string& key) {
+/// @throws Error if the text has a surrogate without its partner, which no file can hold
+std::string utf8_of(const py::handle& text, const std::string& key) {
+  Py_ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (bytes != nullptr) return {bytes, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  throw Error(key + ": found a text that is not Unicode; allowed texts without single surrogates");
+}
+
+Value value_of(const py::handle& object, const std::string& key, int depth);
+
+Value::Table table_of(const py::dict& dict, const std::string& path, int depth) {
+  Value::Table table;
+  for (const auto& [key, value] : dict) {
+    if (!py::isinstance<py::str>(key)) {
+      throw Error((path.empty() ? "the scenario" : path) + ": found the key " + py::repr(key).cast<std::string>() +
+                  "; allowed texts");
+    }
+    const std::string name = utf8_of(key, path.empty() ? "the scenario" : path);
+    table.emplace_back(name, value_of(value, path.empty() ? name : path + "." + name, depth + 1));
+  }
+  return table;
+}
+
+Value value_of(const py::handle& object, const std::string& key, int depth) {
+  if (depth > deepest) {
+    throw Error(key.substr(0, key.find_first_of(".[")) + ": found lists or dicts within one another, more than " +
+                std::to_string(deepest) + " deep; allowed at most that");
+  }
   if (py::isinstance<py::bool_>(object)) return object.cast<bool>();
   if (py::isinstance<py::int_>(object)) {
     try {
@@ -22,13 +51,17 @@ Value value_of(const py::handle& object, const std::string& key) {
     }
   }
   if (py::isinstance<py::float_>(object)) return object.cast<double>();
-  if (py::isinstance<py::str>(object)) return object.cast<std::string>();
-  if (py::isinstance<py::dict>(object)) return table_of(object.cast<py::dict>(), key);
-  if (py::hasattr(object, "tolist")) return value_of(object.attr("tolist")(), key);  // of NumPy: arrays and scalars
+  if (py::isinstance<py::str>(object)) return utf8_of(object, key);
+  if (py::isinstance<py::dict>(object)) return table_of(object.cast<py::dict>(), key, depth);
+  if (py::hasattr(object, "tolist")) {  // of NumPy: arrays and scalars
+    const py::object plain = object.attr("tolist")();
+    // A longdouble stays one.
+    if (!py::type::of(plain).is(py::type::of(object))) return value_of(plain, key, depth + 1);
+  }
   if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object)) {
     Value::List list;
     for (const py::handle& entry : object)
-      list.push_back(value_of(entry, key + "[" + std::to_string(list.size()) + "]"));
+      list.push_back(value_of(entry, key + "[" + std::to_string(list.size()) + "]", depth + 1));
     return list;
   }
   if (is_a(object, "decimal", "Decimal") || is_a(object, "fractions", "Fraction") || is_a(object, "os", "PathLike")) {
@@ -39,18 +72,11 @@ Value value_of(const py::handle& object, const std::string& key) {
               "; allowed numbers, texts, True and False, lists and dicts of them");
 }
 
-Value::Table table_of(const py::dict& dict, const std::string& path) {
-  Value::Table table;
-  for (const auto& [key, value] : dict) {
-    if (!py::isinstance<py::str>(key)) {
-      throw Error((path.empty() ? "the scenario" : path) + ": found the key " + py::repr(key).cast<std::string>() +
-                  "; allowed texts");
-    }
-    const auto name = key.cast<std::string>();
-    table.emplace_back(name, value_of(value, path.empty() ? name : path + "." + name));
-  }
-  return table;
-}
+}  // namespace
+
+Value value_of(const py::handle& object, const std::string& key) { return value_of(object, key, 0); }
+
+Value::Table table_of(const py::dict& dict, const std::string& path) { return table_of(dict, path, 0); }
 
 Existing existing_named(const std::string& name, bool can_resume) {
   if (name == "error") return Existing::refuse;

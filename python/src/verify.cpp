@@ -25,7 +25,7 @@ py::dict verify_in_python(const std::vector<std::string>& methods, bool all, con
   py::dict found;
   found["json"] = verification_json(rows, interrupts.was_interrupted());
   found["text"] = rows.empty() ? std::string() : property_table(rows);
-  found["raised"] = interrupts.raised();
+  found["interrupted"] = interrupts.raised();
   return found;
 }
 

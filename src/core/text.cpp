@@ -95,6 +95,8 @@ std::string nearest(const std::string& name, std::span<const std::string> candid
   std::string best;
   std::size_t least = std::max<std::size_t>((name.size() + 1) / 3, 1) + 1;
   for (const std::string& candidate : candidates) {
+    // The distance is at least the difference of the lengths; a very long name would take seconds.
+    if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) >= least) continue;
     const std::size_t distance = edit_distance(wanted, lower_case(candidate));
     const bool nothing_in_common = distance >= std::max(name.size(), candidate.size());
     if (distance < least && !nothing_in_common && !name.empty()) {

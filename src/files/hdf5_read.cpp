@@ -67,7 +67,11 @@ void silence_hdf5() {
 Hdf5Handle open_to_read(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open " + path.string()};
+  hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
+  // A file that h5py has open in this process can be opened in the same way only.
+  const bool others_are_open = H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_FILE) > 0;
+  if (file < 0 && others_are_open) file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+  return {file, H5Fclose, "open " + path.string()};
 }
 
 Hdf5Handle open_foreign_to_read(const std::filesystem::path& path) {

@@ -48,12 +48,15 @@ class MemberReader {
     reading.startless->start_q.assign(reading.startless->start_q.size(), std::numeric_limits<double>::quiet_NaN());
     reading.startless->start_p = reading.startless->start_q;
   }
-  /// Values of a list are parsed once, those of a formula for each member.
+  /// Values of a list that several members have are parsed once. Those of a formula, and of a list that is as long as
+  /// the sweep, are parsed for each member: a million parsed values would take 300 MB.
   std::size_t value_of(std::size_t member, std::size_t key) {
-    const auto [at, is_new] = numbers_.try_emplace({key, varied_.place(member, key)});
+    const Vary& vary = varied_.keys()[key];
+    const bool is_shared = vary.formula.empty() && vary.texts.size() < varied_.members();
+    const auto [at, is_new] = numbers_.try_emplace({key, is_shared ? varied_.place(member, key) : 0});
     if (is_new) {
       at->second = family_.add_value(varied_.text(member, key));
-    } else if (!varied_.keys()[key].formula.empty()) {
+    } else if (!is_shared) {
       family_.replace_value(at->second, varied_.text(member, key));
     }
     return at->second;
