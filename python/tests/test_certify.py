@@ -130,6 +130,48 @@ def test_logs_of_random_runs_do_not_contradict_theory():
     assert decided > 40
 
 
+T20000 = np.arange(20_000.0)
+NOISE = np.random.default_rng(11).normal(size=20_000)
+SWELLING = {
+    "exp(t/2000) sin": np.exp(T20000 / 2000) * np.sin(0.3 * T20000),
+    "t sin": T20000 * np.sin(0.3 * T20000),
+    "t^2 sin": T20000**2 * np.sin(0.3 * T20000),
+    "sqrt(t) sin": np.sqrt(T20000) * np.sin(0.3 * T20000),
+    "(1 + t/T) sin": (1 + T20000 / 20_000) * np.sin(0.3 * T20000),
+    "sin that begins to grow late": np.exp(np.maximum(T20000 - 15_000, 0) / 1000) * np.sin(0.3 * T20000),
+    "t noise": T20000 * NOISE,
+}
+
+
+@pytest.mark.parametrize("name", SWELLING)
+@pytest.mark.parametrize("every", [1, 7])
+def test_a_swelling_oscillation_is_not_bounded(name, every):
+    found = hf.certify(T20000[::every], -1 + 1e-10 * SWELLING[name][::every])
+    assert found.drift == "undecided" and "grows over the log, from" in found.reason, (found.drift, found.reason)
+
+
+def test_an_amplitude_that_returns_or_shrinks_is_bounded():
+    rng = np.random.default_rng(12)
+    t = T20000[:8000]
+    drifts = []
+    for _ in range(40):
+        w, beat, phase = 2 * np.pi / rng.uniform(3, 300), 2 * np.pi * rng.uniform(3, 30) / t[-1], rng.uniform(0, 7, 2)
+        anomaly = mean = w * t + phase[0]
+        for _ in range(40):
+            anomaly = anomaly - (anomaly - 0.6 * np.sin(anomaly) - mean) / (1 - 0.6 * np.cos(anomaly))
+        for x in (np.sin(w * t + phase[0]) * np.cos(beat * t + phase[1]), np.sin(w * t) * (1 + np.cos(beat * t + phase[1]) / 2),
+                  (1 - 0.6 * np.cos(anomaly)) ** -3, np.exp(-t / 4000) * np.sin(w * t), rng.normal(size=len(t))):
+            drifts.append(hf.certify(t, -1 + 1e-7 * x).drift)
+    assert set(drifts) <= {"bounded", "undecided"} and drifts.count("bounded") > 180, drifts.count("bounded")
+
+
+def test_the_reason_says_which_way_the_energy_goes():
+    t = t_of()
+    ripple = -0.5 + 1e-6 * np.sin(3 * t)
+    assert hf.certify(t, ripple + 1e-6 * t).reason == "the energy rises steadily"
+    assert hf.certify(t, ripple - 1e-6 * t).reason == "the energy falls steadily"
+
+
 def test_times_that_are_not_equidistant_are_resampled_or_undecided():
     rng = np.random.default_rng(3)
     t = np.sort(rng.uniform(0, 400, 4001))
