@@ -611,12 +611,25 @@ PAIR_45 = ([[], [1 / 5], [3 / 40, 9 / 40], [44 / 45, -56 / 15, 32 / 9], [19372 /
            [5179 / 57600, 0, 7571 / 16695, 393 / 640, -92097 / 339200, 187 / 2100, 1 / 40])
 
 
-@pytest.mark.parametrize("pair, tolerance", [(PAIR_23, 1e-3), (PAIR_23, 1e-6), (PAIR_45, 1e-3), (PAIR_45, 1e-6),
-                                             (PAIR_45, 1e-8)])
-def test_an_adaptive_step_is_not_called_symplectic(pair, tolerance):
-    found = hf.certify_step(adaptive(FORCES["kepler"], *pair, tolerance), "kepler", symplectic=True)
+@pytest.mark.parametrize("problem, pair, tolerance", [
+    ("kepler", PAIR_23, 1e-3), ("kepler", PAIR_23, 1e-6), ("pendulum", PAIR_23, 1e-7), ("kepler", PAIR_45, 1e-3),
+    ("kepler", PAIR_45, 1e-6), ("kepler", PAIR_45, 1e-8), ("pendulum", PAIR_45, 1e-8)])
+def test_an_adaptive_step_is_not_called_symplectic(problem, pair, tolerance):
+    found = hf.certify_step(adaptive(FORCES[problem], *pair, tolerance), problem, symplectic=True)
     assert not found.symplectic and not found.symmetric and not found.preserves["energy"], found
     assert found.agrees is not True
+
+
+@pytest.mark.parametrize("rtol, atol", [(1e-3, 1e-6), (1e-8, 1e-10)])
+def test_an_adaptive_step_of_scipy_is_not_called_symplectic(rtol, atol):
+    solve_ivp = pytest.importorskip("scipy.integrate").solve_ivp
+
+    def step(q, p, h):
+        z = solve_ivp(lambda t, z: np.concatenate([z[2:], -kepler_gradient(z[:2])]), [0, h], np.concatenate([q, p]),
+                      method="RK45", rtol=rtol, atol=atol).y[:, -1]
+        return z[:2], z[2:]
+    found = hf.certify_step(step, "kepler")
+    assert not found.symplectic and not found.symmetric, found
 
 
 GM = 1.327e20
