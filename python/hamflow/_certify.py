@@ -178,8 +178,9 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
     problem : str, Problem, or dict from Problem.at
         The problem whose forces the step has in it, with all parameters at their defaults for a name:
         "harmonic", H = (p^2 + q^2)/2; "kepler", H = (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2); "henon-heiles";
-        "pendulum", H = p^2/2 - cos q. A Problem without a start is measured about a state that the catalogue declares
-        for it, else with all q and p near 0.5; `problem.at(q=..., p=...)` chooses another one.
+        "pendulum", H = p^2/2 - cos q. The sizes of q and p and the time scale are those at the start, in any
+        units. A Problem without a start is measured about a state that the catalogue declares for it; one without such
+        a state needs `problem.at(q=..., p=...)`.
     order : int, optional
         The order that is claimed; it agrees within 0.5, from order 7 on within 1.
     symplectic, symmetric : bool, optional
@@ -201,7 +202,7 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
 
     Notes
     -----
-    Errors of single steps are measured against the flow in long double. The Jacobian comes from central differences of
+    Errors of single steps are measured against Taylor series in long double. The Jacobian comes from central differences of
     order 6 with three difference lengths, whose disagreement is its error bound [HLW2006, Def. VI.2.1].
     A defect of the size of rounding is True, one of the size of the step's error is False, and what is between, as with
     equations that are solved to a coarse tolerance or steps in single precision, is None. Some 2000 steps are taken.

@@ -130,6 +130,48 @@ def test_logs_of_random_runs_do_not_contradict_theory():
     assert decided > 40
 
 
+T20000 = np.arange(20_000.0)
+NOISE = np.random.default_rng(11).normal(size=20_000)
+SWELLING = {
+    "exp(t/2000) sin": np.exp(T20000 / 2000) * np.sin(0.3 * T20000),
+    "t sin": T20000 * np.sin(0.3 * T20000),
+    "t^2 sin": T20000**2 * np.sin(0.3 * T20000),
+    "sqrt(t) sin": np.sqrt(T20000) * np.sin(0.3 * T20000),
+    "(1 + t/T) sin": (1 + T20000 / 20_000) * np.sin(0.3 * T20000),
+    "sin that begins to grow late": np.exp(np.maximum(T20000 - 15_000, 0) / 1000) * np.sin(0.3 * T20000),
+    "t noise": T20000 * NOISE,
+}
+
+
+@pytest.mark.parametrize("name", SWELLING)
+@pytest.mark.parametrize("every", [1, 7])
+def test_a_swelling_oscillation_is_not_bounded(name, every):
+    found = hf.certify(T20000[::every], -1 + 1e-10 * SWELLING[name][::every])
+    assert found.drift == "undecided" and "grows over the log, from" in found.reason, (found.drift, found.reason)
+
+
+def test_an_amplitude_that_returns_or_shrinks_is_bounded():
+    rng = np.random.default_rng(12)
+    t = T20000[:8000]
+    drifts = []
+    for _ in range(40):
+        w, beat, phase = 2 * np.pi / rng.uniform(3, 300), 2 * np.pi * rng.uniform(3, 30) / t[-1], rng.uniform(0, 7, 2)
+        anomaly = mean = w * t + phase[0]
+        for _ in range(40):
+            anomaly = anomaly - (anomaly - 0.6 * np.sin(anomaly) - mean) / (1 - 0.6 * np.cos(anomaly))
+        for x in (np.sin(w * t + phase[0]) * np.cos(beat * t + phase[1]), np.sin(w * t) * (1 + np.cos(beat * t + phase[1]) / 2),
+                  (1 - 0.6 * np.cos(anomaly)) ** -3, np.exp(-t / 4000) * np.sin(w * t), rng.normal(size=len(t))):
+            drifts.append(hf.certify(t, -1 + 1e-7 * x).drift)
+    assert set(drifts) <= {"bounded", "undecided"} and drifts.count("bounded") > 180, drifts.count("bounded")
+
+
+def test_the_reason_says_which_way_the_energy_goes():
+    t = t_of()
+    ripple = -0.5 + 1e-6 * np.sin(3 * t)
+    assert hf.certify(t, ripple + 1e-6 * t).reason == "the energy rises steadily"
+    assert hf.certify(t, ripple - 1e-6 * t).reason == "the energy falls steadily"
+
+
 def test_times_that_are_not_equidistant_are_resampled_or_undecided():
     rng = np.random.default_rng(3)
     t = np.sort(rng.uniform(0, 400, 4001))
@@ -413,7 +455,7 @@ def test_what_preserves_the_energy():
                 break
         return a, b
 
-    quartic = hf.Problem("p^2/2 + q^4/4", coordinates=["q"])
+    quartic = hf.Problem("p^2/2 + q^4/4", coordinates=["q"]).at(q=[0.6], p=[0.5])
     found = hf.certify_step(average_vector_field, quartic, order=2, symmetric=True, symplectic=False, preserves="energy")
     assert found.agrees is True, found.reason
 
@@ -479,7 +521,7 @@ def test_three_dimensions_and_a_start():
     def gradient(q):
         return k * q + np.array([q[1] * q[2], q[0] * q[2], q[0] * q[1]]) / 4
 
-    for problem in (springs, springs.at(q=[0.4, -0.2, 0.3], p=[0, 0, 0])):
+    for problem in (springs.at(q=[0.6, 0.5, 0.55], p=[0.5, 0.6, 0.4]), springs.at(q=[0.4, -0.2, 0.3], p=[0, 0, 0])):
         found = hf.certify_step(forest_ruth(gradient), problem, order=4, **STRUCTURE)
         assert found.agrees is True, found.reason
         assert hf.certify_step(rk4(gradient), problem, symplectic=True).agrees is False
@@ -535,6 +577,90 @@ def test_a_coarse_solver_is_undecided():
         return a, b
     found = hf.certify_step(coarse, "pendulum", order=2, symplectic=True, symmetric=True)
     assert found.symplectic is not False and found.symmetric is not False and found.agrees is not False
+
+
+def adaptive(gradient, matrix, weights, lower, tolerance):
+    """An explicit pair with step control over one h: the number of inner steps is no smooth function of (q, p, h)."""
+    order = 3 if len(weights) == 4 else 5
+
+    def step(q, p, h):
+        def field(z):
+            return np.concatenate([z[len(q):], -gradient(z[:len(q)])])
+        z, done = np.concatenate([q, p]), 0.0
+        inner = h / 10 * min(1, tolerance ** (1 / order) / abs(h) * 10)
+        while abs(done) < abs(h):
+            inner = math.copysign(min(abs(inner), abs(h - done)), h)
+            k = []
+            for row in matrix:
+                k.append(field(z + inner * sum((x * each for x, each in zip(row, k)), 0 * z)))
+            error = inner * sum((w - v) * each for w, v, each in zip(weights, lower, k))
+            size = np.sqrt(np.mean((error / (tolerance + tolerance * abs(z))) ** 2))
+            if size < 1:
+                z = z + inner * sum(w * each for w, each in zip(weights, k))
+                done = h if abs(h - done) <= abs(inner) else done + inner
+            inner *= min(5, max(0.2, 0.9 * max(size, 1e-10) ** (-1 / order)))
+        return z[:len(q)], z[len(q):]
+    return step
+
+
+PAIR_23 = ([[], [1 / 2], [0, 3 / 4], [2 / 9, 1 / 3, 4 / 9]], [2 / 9, 1 / 3, 4 / 9, 0], [7 / 24, 1 / 4, 1 / 3, 1 / 8])
+PAIR_45 = ([[], [1 / 5], [3 / 40, 9 / 40], [44 / 45, -56 / 15, 32 / 9], [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729],
+            [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656],
+            [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]],
+           [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84, 0],
+           [5179 / 57600, 0, 7571 / 16695, 393 / 640, -92097 / 339200, 187 / 2100, 1 / 40])
+
+
+@pytest.mark.parametrize("problem, pair, tolerance", [
+    ("kepler", PAIR_23, 1e-3), ("kepler", PAIR_23, 1e-6), ("pendulum", PAIR_23, 1e-7), ("kepler", PAIR_45, 1e-3),
+    ("kepler", PAIR_45, 1e-6), ("kepler", PAIR_45, 1e-8), ("pendulum", PAIR_45, 1e-8)])
+def test_an_adaptive_step_is_not_called_symplectic(problem, pair, tolerance):
+    found = hf.certify_step(adaptive(FORCES[problem], *pair, tolerance), problem, symplectic=True)
+    assert not found.symplectic and not found.symmetric and not found.preserves["energy"], found
+    assert found.agrees is not True
+
+
+@pytest.mark.parametrize("rtol, atol", [(1e-3, 1e-6), (1e-8, 1e-10)])
+def test_an_adaptive_step_of_scipy_is_not_called_symplectic(rtol, atol):
+    solve_ivp = pytest.importorskip("scipy.integrate").solve_ivp
+
+    def step(q, p, h):
+        z = solve_ivp(lambda t, z: np.concatenate([z[2:], -kepler_gradient(z[:2])]), [0, h], np.concatenate([q, p]),
+                      method="RK45", rtol=rtol, atol=atol).y[:, -1]
+        return z[:2], z[2:]
+    found = hf.certify_step(step, "kepler")
+    assert not found.symplectic and not found.symmetric, found
+
+
+GM = 1.327e20
+SUN = hf.Problem("(p_x^2 + p_y^2)/2 - GM/sqrt(x^2 + y^2)", coordinates=["x", "y"], parameters={"GM": GM})
+
+
+@pytest.mark.parametrize("start", [{"q": [5e10, 0], "p": [0, 5e4]}, {"q": [0, 1.5e11], "p": [-3e4, 1e3]}])
+def test_units_of_any_size(start):
+    def gradient(q):
+        return GM * kepler_gradient(q)
+    for make, claims in (RIGHT["velocity Verlet"], RIGHT["Forest-Ruth"], RIGHT["Kahan-Li 6"], RIGHT["RK4"]):
+        found = hf.certify_step(make(gradient), SUN.at(**start), **claims)
+        assert found.agrees is True, (found, found.reason)
+        assert found.preserves["energy"] is False
+    wrong = hf.certify_step(half_step_with_the_whole(gradient), SUN.at(**start), order=2)
+    assert wrong.agrees is False
+    with pytest.raises(hf.Error, match="found no start"):
+        hf.certify_step(verlet(gradient), SUN)
+    slow = hf.Problem("p^2/2e20 + q^2/2", coordinates=["q"]).at(q=[1e-8], p=[1e2])  # a period of 6e10
+
+    def slow_verlet(q, p, h):
+        p = p - h / 2 * q
+        q = q + h * p / 1e20
+        return q, p - h / 2 * q
+    found = hf.certify_step(slow_verlet, slow, order=2, **STRUCTURE)
+    assert found.agrees is True, (found, found.reason)
+
+
+def test_a_wrong_force_is_no_smooth_error():
+    found = hf.certify_step(verlet(lambda q: -3 * np.sin(q)), "pendulum", order=2, symplectic=True)
+    assert found.agrees is not True and "above rounding" not in found.reason, found.reason
 
 
 def test_hidden_state_is_refused():
@@ -600,7 +726,8 @@ def test_wrong_claims(claims, words):
 
 @pytest.mark.parametrize("problem, words", [
     ("keppler", "did you mean kepler"), (3, "found int"), (hf.Problem("n-body", masses=[1, 1]), "problem.at"),
-    (hf.Problem("t-tube"), "walls"), (hf.Problem("p^2/2 + q^2/2 + q*sin(t)", coordinates=["q"]), "depends on t")])
+    (hf.Problem("t-tube"), "walls"), (hf.Problem("p^2/2 + q^2/2 + q*sin(t)", coordinates=["q"]).at(q=[0.5], p=[0.5]), "depends on t"),
+    (hf.Problem("p^2/2 + q^4/4", coordinates=["q"]), "found no start.*problem.at")])
 def test_wrong_problems(problem, words):
     with pytest.raises(hf.Error, match=words):
         hf.certify_step(verlet(np.sin), problem)

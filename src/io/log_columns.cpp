@@ -114,6 +114,8 @@ class LogTable {
     columns_.lines.push_back(row.line);
   }
   std::size_t rows() const { return columns_.time.size(); }
+  std::size_t width() const { return width_; }
+  void leave_out(std::size_t line) { columns_.cut_line = line; }
   LogColumns take() { return std::move(columns_); }
 
  private:
@@ -169,7 +171,8 @@ std::ifstream opened(const std::filesystem::path& file) {
   return in;
 }
 
-/// Calls take(line, number) for each line, without the mark of UTF-8 at its beginning.
+/// Calls take(line, number, is_whole) for each line, without the mark of UTF-8 at its beginning. Not whole is a last
+/// line without its end.
 template <class Take>
 void each_log_line(const std::filesystem::path& file, const Take& take) {
   std::ifstream in = opened(file);
@@ -178,7 +181,7 @@ void each_log_line(const std::filesystem::path& file, const Take& take) {
     if (constexpr std::string_view mark = "\xef\xbb\xbf"; number == 1 && line.starts_with(mark)) {
       line.erase(0, mark.size());
     }
-    take(line, number);
+    take(line, number, !in.eof());
   }
   if (in.bad()) throw FileError("cannot read " + file.string() + " to its end");
 }
@@ -209,7 +212,7 @@ LogColumns read_log_of_lammps(const std::filesystem::path& file, const std::stri
     in_table = false;
     if (!last || table.rows() >= 2) last = table;
   };
-  each_log_line(file, [&](const std::string& line, std::size_t number) {
+  each_log_line(file, [&](const std::string& line, std::size_t number, bool is_whole) {
     const std::vector<LogCell> cells = log_cells(line, ' ');
     if (begins_with(cells, "Step")) {
       if (in_table) end();
@@ -219,6 +222,7 @@ LogColumns read_log_of_lammps(const std::filesystem::path& file, const std::stri
     } else if (in_table && (begins_with(cells, "Loop", "time") || begins_with(cells, "ERROR:"))) {
       end();
     } else if (in_table && !cells.empty() && !begins_with(cells, "WARNING:")) {
+      if (!is_whole) return table.leave_out(number);
       table.add({cells, number});
     }
   });
@@ -235,7 +239,7 @@ LogColumns read_text_columns(const std::filesystem::path& file, const std::strin
   std::string comment_line;
   bool begun = false;
   char separator = ' ';
-  each_log_line(file, [&](const std::string& line, std::size_t number) {
+  each_log_line(file, [&](const std::string& line, std::size_t number, bool is_whole) {
     const std::vector<LogCell> words = log_cells(line, ' ');
     if (words.empty()) return;
     if (is_comment(words[0])) {
@@ -245,7 +249,11 @@ LogColumns read_text_columns(const std::filesystem::path& file, const std::strin
       }
       return;
     }
-    if (begun) return table.add({log_cells(line, separator), number});
+    if (begun) {
+      LogRow row{log_cells(line, separator), number};
+      if (!is_whole && row.cells.size() < table.width()) return table.leave_out(number);
+      return table.add(row);
+    }
     begun = true;
     separator = separator_of(line);
     const std::vector<LogCell> cells = log_cells(line, separator);

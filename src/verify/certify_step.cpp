@@ -24,9 +24,11 @@ namespace {
 
 constexpr std::uint64_t state_seed = 20260711;    // any number: fixed, so that a measurement can be repeated
 constexpr double nothing_but_rounding = 0x1p-40;  // of scaled states: an iteration that ends at 1e-13 counts as exact
+constexpr double exact_to_rounding = 0x1p-44;     // 256 roundings: an adaptive method of small tolerance has more
 constexpr double told_from_rounding = 1024;       // times rounding: an error of the method that shows
 constexpr double part_of_the_error = 0x1p-10;     // a defect above it belongs to the method, not to its solver
 constexpr double most_error = 0.3;                // of scaled states: with more a step shows nothing
+constexpr double smooth = 0.02;                   // with more noise an error is that of rounding, or of a solver
 constexpr const char* energy_name = "energy";
 
 double size_of(const State<double>& x) {
@@ -42,7 +44,14 @@ struct Surroundings {
   double frequency = 0;
 };
 
-/// The spectral radius of the vector field's Jacobian, |A^8|^(1/8).
+double largest_of(const std::vector<double>& xs) {
+  double most = 0;
+  for (const double x : xs) most = std::max(most, std::abs(x));
+  return most;
+}
+
+/// The spectral radius of the vector field's Jacobian, |A^8|^(1/8). Differences are taken in parts of the sizes of q
+/// and of p, which may have units of any size.
 double frequency_at(const StepProblem& problem, const State<double>& z) {
   const std::size_t n = z.size() / 2;
   const auto field = [&](const State<double>& at) {
@@ -52,19 +61,23 @@ double frequency_at(const StepProblem& problem, const State<double>& z) {
     for (const double force : g.by_q) f.push_back(-force);
     return f;
   };
-  double size = 0;
-  for (const double x : z) size = std::max(size, std::abs(x));
-  const double d = 0x1p-17 * (size > 0 ? size : 1);
+  const auto middle = z.begin() + static_cast<std::ptrdiff_t>(n);
+  double size_q = largest_of({z.begin(), middle});
+  double size_p = largest_of({middle, z.end()});
+  if (!(size_q > 0)) size_q = size_p > 0 ? size_p : 1;
+  if (!(size_p > 0)) size_p = size_q;
+  const auto unit = [&](std::size_t i) { return i < n ? size_q : size_p; };
+  constexpr double d = 0x1p-17;
   const auto times_jacobian = [&](const State<double>& v) {
     State<double> above = z;
     State<double> below = z;
     for (std::size_t i = 0; i < z.size(); ++i) {
-      above[i] += d * v[i];
-      below[i] -= d * v[i];
+      above[i] += d * v[i] * unit(i);
+      below[i] -= d * v[i] * unit(i);
     }
     State<double> difference = field(above);
     const State<double> other = field(below);
-    for (std::size_t i = 0; i < z.size(); ++i) difference[i] = (difference[i] - other[i]) / (2 * d);
+    for (std::size_t i = 0; i < z.size(); ++i) difference[i] = (difference[i] - other[i]) / (2 * d * unit(i));
     return difference;
   };
   State<double> v;
@@ -96,9 +109,9 @@ State<double> centre_of(const StepProblem& problem) {
   if (problem.entry->dimension == 0) {
     throw Error(info.name + " is of any size: give a state of it, as by problem.at(q=..., p=...)");
   }
-  for (std::size_t i = 0; i < 2 * problem.entry->dimension; ++i)
-    z.push_back(0.5 + 0.1 * counter_uniform(state_seed, i));
-  return z;
+  throw Error(info.name +
+              ": found no start; allowed a state about which the step is measured, as by problem.at(q=..., "
+              "p=...): the sizes of q and p and the time scale are those of the motion");
 }
 
 Surroundings surroundings_of(const StepProblem& problem) {
@@ -122,18 +135,13 @@ Surroundings surroundings_of(const StepProblem& problem) {
   const auto [q, p] = parts(centre);
   const EnergyGradient g = problem.entry->gradient(problem.parameters, q, p);
   found.frequency = frequency_at(problem, centre);
-  const auto largest = [](const std::vector<double>& xs) {
-    double most = 0;
-    for (const double x : xs) most = std::max(most, std::abs(x));
-    return most;
-  };
   // A motion that nothing turns back, such as a free fall, has a time all the same: that in which it changes the state.
-  const double turns_over =
-      std::max(largest(q) > 0 ? largest(g.by_p) / largest(q) : 0, largest(p) > 0 ? largest(g.by_q) / largest(p) : 0);
+  const double turns_over = std::max(largest_of(q) > 0 ? largest_of(g.by_p) / largest_of(q) : 0,
+                                     largest_of(p) > 0 ? largest_of(g.by_q) / largest_of(p) : 0);
   if (found.frequency < 0x1p-10 * turns_over) found.frequency = turns_over;
   const double rate = found.frequency;
-  double unit_q = std::max(largest(q), rate > 0 ? largest(g.by_p) / rate : 0);
-  double unit_p = std::max(largest(p), rate > 0 ? largest(g.by_q) / rate : 0);
+  double unit_q = std::max(largest_of(q), rate > 0 ? largest_of(g.by_p) / rate : 0);
+  double unit_p = std::max(largest_of(p), rate > 0 ? largest_of(g.by_q) / rate : 0);
   if (!(unit_q > 0)) unit_q = 1;
   if (!(unit_p > 0)) unit_p = 1;
   found.unit.assign(n, unit_q);
@@ -165,7 +173,9 @@ struct Vote {
   double defect = 0;
   double rounding = 0;
   double error = 0;
-  bool is_told() const { return error >= told_from_rounding * rounding; }
+  double noise = 0;  // the part of the error that is no smooth function of h
+  bool is_smooth() const { return noise <= smooth; }
+  bool is_told() const { return is_smooth() && error >= told_from_rounding * rounding; }
   bool is_kept() const { return defect <= 4 * rounding; }
   bool is_broken() const { return defect > 32 * rounding && defect > part_of_the_error * error; }
 };
@@ -175,6 +185,36 @@ struct PropertyVerdict {
   std::optional<bool> holds;
   std::string reason;
 };
+/// Why too few votes tell the error of the method from rounding.
+std::string why_untold(const std::vector<Vote>& votes) {
+  if (votes.empty()) return fmt::format("no step has an error below {} of the size of the state", most_error);
+  const Vote& last = votes.back();
+  const auto is_small = [](const Vote& vote) { return vote.error < told_from_rounding * nothing_but_rounding; };
+  if (std::all_of(votes.begin(), votes.end(), is_small)) {
+    return fmt::format(
+        "the error of the step, {:.1e} with h = {:.3g}, does not stand {:.0f} times above the {:.1e} that "
+        "rounding explains",
+        last.error, last.h, told_from_rounding, nothing_but_rounding);
+  }
+  for (const Vote& vote : votes) {
+    if (vote.is_smooth() || is_small(vote)) continue;
+    return fmt::format(
+        "the errors are no smooth function of h: with h = {:.3g} the error of the step is {:.1e}, and {:.0f} "
+        "% of it changes from one h to the next",
+        vote.h, vote.error, 100 * std::min(vote.noise, 1.0));
+  }
+  const auto told = std::count_if(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_told(); });
+  if (told == 0) {
+    return fmt::format(
+        "the step is no smooth function of q and p: its derivatives by differences are uncertain by {:.1e} "
+        "with h = {:.3g}, where the error of the step is {:.1e}",
+        last.rounding, last.h, last.error);
+  }
+  return fmt::format(
+      "only h = {:.3g}, where the error of the step is {:.1e}, tells the method from rounding; allowed two "
+      "step lengths or more",
+      last.h, last.error);
+}
 PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& property) {
   int kept = 0;
   bool is_exact = !votes.empty();
@@ -189,7 +229,7 @@ PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& pr
     } else if (vote.is_told()) {
       ++kept;
     }
-    is_exact = is_exact && vote.is_kept() && vote.error <= 4 * vote.rounding;
+    is_exact = is_exact && vote.is_kept() && vote.error <= exact_to_rounding;
   }
   if (between != nullptr) {
     return {std::nullopt,
@@ -198,28 +238,16 @@ PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& pr
                         property, between->defect, between->h, 4 * between->rounding, between->error)};
   }
   if (kept >= 2 || is_exact) return {true, {}};
-  return {std::nullopt, fmt::format("{} undecided: no two steps have an error that stands above rounding", property)};
+  return {std::nullopt, property + " undecided: " + why_untold(votes)};
 }
 
 class StepExamination {
  public:
   StepExamination(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims)
       : step_(step), problem_(problem), claims_(claims), around_(surroundings_of(problem)) {
-    const Request request{.problem = problem.entry->info.name,
-                          .variant = problem.variant,
-                          .parameters = problem.parameters,
-                          .start = {},
-                          .method = {.name = "rk4", .options = {}}};
-    flow_ = problem.entry->step_map(request, size() / 2);
-    if (!flow_) throw Error("single steps are not measured on " + problem.entry->info.name);
+    flow_ = exact_flow();
     short_step_ = 2 * std::numbers::pi / 60 / around_.frequency;
-    constexpr double longest_period = 1000;  // the exact flow takes steps of at most 1/8
-    if (60 * short_step_ > longest_period) {
-      throw Error(
-          fmt::format("a period of the motion is about {:.2g} time units; allowed {:.0f}: choose a larger unit "
-                      "of time",
-                      60 * short_step_, longest_period));
-    }
+    check_motion();
   }
 
   StepCertificate certificate() {
@@ -240,6 +268,48 @@ class StepExamination {
   }
 
  private:
+  /// Taylor series in long double, with sub-steps of their own: their tolerance is relative to the sizes of q and of p.
+  std::unique_ptr<StepMap> exact_flow() const {
+    for (const char* method : {"taylor", "dop853"}) {
+      const Request request{.problem = problem_.entry->info.name,
+                            .variant = problem_.variant,
+                            .parameters = problem_.parameters,
+                            .start = {},
+                            .method = {.name = method, .options = {{"tolerance", "1e-18"}}}};
+      if (!problem_.entry->accepts(request.method)) continue;
+      if (auto flow = problem_.entry->step_map(request, size() / 2)) return flow;
+    }
+    throw Error("single steps are not measured on " + problem_.entry->info.name);
+  }
+
+  /// The state after the time h; without value where the motion cannot be followed.
+  std::optional<State<long double>> exact(const State<double>& z, double h) const {
+    State<long double> end(z.begin(), z.end());
+    if (!flow_->advance(end, static_cast<long double>(h), 1)) return std::nullopt;
+    return end;
+  }
+
+  /// Steps tiny beside the time scale of the motion would all be exact to rounding.
+  void check_motion() const {
+    constexpr double least = 0.02;  // of the units of q and p
+    double most = 0;
+    for (const auto& z : around_.states) {
+      for (const double part : {1.0, 0.25}) {
+        const auto end = exact(z, part * 20 * short_step_);
+        if (!end) continue;
+        for (std::size_t i = 0; i < size(); ++i) {
+          const double moved = static_cast<double>((*end)[i] - static_cast<long double>(z[i])) / around_.unit[i];
+          if (std::isfinite(moved)) most = std::max(most, std::abs(moved));
+        }
+      }
+    }
+    if (most >= least) return;
+    throw Error(fmt::format(
+        "the longest step, h = {:.2g}, moves the state by {:.1e} of its size; allowed {} or more: give a state "
+        "that moves, as by problem.at(q=..., p=...)",
+        20 * short_step_, most, least));
+  }
+
   std::size_t size() const { return around_.unit.size(); }
   std::size_t degrees() const { return size() / 2; }
 
@@ -275,10 +345,11 @@ class StepExamination {
   std::optional<State<double>> error_of(const State<double>& z, double h) {
     const auto end = tried(z, h);
     if (!end) return std::nullopt;
-    const State<long double> exact = flow_->flow(State<long double>(z.begin(), z.end()), static_cast<long double>(h));
+    const auto right = exact(z, h);
+    if (!right) return std::nullopt;
     State<double> error(size());
     for (std::size_t i = 0; i < size(); ++i) {
-      error[i] = static_cast<double>(static_cast<long double>((*end)[i]) - exact[i]) / around_.unit[i];
+      error[i] = static_cast<double>(static_cast<long double>((*end)[i]) - (*right)[i]) / around_.unit[i];
       if (!std::isfinite(error[i])) return std::nullopt;
     }
     return error;
@@ -362,7 +433,6 @@ class StepExamination {
   void measure_order() {
     constexpr int most_lengths = 128;
     constexpr std::size_t enough = 24;
-    constexpr double smooth = 0.02;  // with more noise an error is that of rounding, or of a solver
     constexpr double rounding_in_single_precision = 0x1p-17;
     constexpr int gone = 8;  // so many noisy errors in turn, a factor of 4 in h
     std::vector<OrderPoint> points;
@@ -425,15 +495,15 @@ class StepExamination {
     constexpr std::size_t most_ends = 6;
     constexpr double most_uncertainty = 0.1;
     if (points.size() < fewest) {
-      if (points.empty() && largest_error > 0 && largest_error < told_from_rounding * nothing_but_rounding) {
+      if (points.empty() && largest_error > 0 && largest_error < exact_to_rounding) {
         found_.order = std::numeric_limits<double>::infinity();
         reasons_.push_back("order: every step is exact to rounding");
         return;
       }
-      reasons_.push_back(
-          fmt::format("order undecided: {} step lengths have an error that stands above noise and below "
-                      "the size of the state; a slope needs {}{}",
-                      points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
+      reasons_.push_back(fmt::format(
+          "order undecided: with {} step lengths the error is a smooth function of h and below the size of the "
+          "state; a slope needs {}{}",
+          points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
       return;
     }
     std::vector<std::size_t> ends;
@@ -522,14 +592,18 @@ class StepExamination {
     return sum;
   }
 
-  std::optional<Vote> symplectic_vote(double h, double error) {
+  static Vote blank_vote(const OrderPoint& at) {
+    return {.h = at.h, .rounding = nothing_but_rounding, .error = at.error, .noise = at.noise};
+  }
+
+  std::optional<Vote> symplectic_vote(const OrderPoint& at) {
     constexpr std::size_t most_states = 3;
-    Vote vote{.h = h, .rounding = nothing_but_rounding, .error = error};
+    Vote vote = blank_vote(at);
     const auto along = directions();
     for (std::size_t k = 0; k < std::min(most_states, around_.states.size()); ++k) {
       std::vector<State<double>> images;
       for (const auto& u : along) {
-        const auto image = derivative(around_.states[k], u, h);
+        const auto image = derivative(around_.states[k], u, at.h);
         if (!image) return std::nullopt;
         vote.rounding = std::max(vote.rounding, image->uncertainty);
         images.push_back(image->value);
@@ -544,11 +618,11 @@ class StepExamination {
     return vote;
   }
 
-  std::optional<Vote> symmetric_vote(double h, double error) {
-    Vote vote{.h = h, .rounding = nothing_but_rounding, .error = error};
+  std::optional<Vote> symmetric_vote(const OrderPoint& at) {
+    Vote vote = blank_vote(at);
     for (const auto& z : around_.states) {
-      const auto there = tried(z, h);
-      const auto back = there ? tried(*there, -h) : std::nullopt;
+      const auto there = tried(z, at.h);
+      const auto back = there ? tried(*there, -at.h) : std::nullopt;
       if (!back) return std::nullopt;
       State<double> apart(size());
       for (std::size_t i = 0; i < size(); ++i) apart[i] = ((*back)[i] - z[i]) / around_.unit[i];
@@ -609,15 +683,15 @@ class StepExamination {
     return sizes;
   }
   /// One vote for each of names(); without value where a step fails.
-  std::optional<std::vector<Vote>> invariant_votes(double h, double error) {
-    std::vector<Vote> votes(names().size(), Vote{.h = h, .rounding = nothing_but_rounding, .error = error});
+  std::optional<std::vector<Vote>> invariant_votes(const OrderPoint& at) {
+    std::vector<Vote> votes(names().size(), blank_vote(at));
     for (std::size_t k = 0; k < around_.states.size(); ++k) {
       const State<double>& z = around_.states[k];
-      const auto end = tried(z, h);
+      const auto end = tried(z, at.h);
       if (!end) return std::nullopt;
       if (sizes_.size() <= k) sizes_.push_back(sizes_of_kept(z));
       const auto before = kept_at(z);
-      const auto after = kept_at(*end, h);
+      const auto after = kept_at(*end, at.h);
       for (std::size_t i = 0; i < votes.size(); ++i) {
         for (std::size_t c = 0; c < before[i].size(); ++c) {
           const double moved = std::abs(after[i][c] - before[i][c]);
@@ -646,21 +720,21 @@ class StepExamination {
     };
     std::string no_way_back;
     for (int k = 0; k < 6; ++k, h *= 2) {
-      const auto error = mean_error(h);
-      if (!error || !(*error < most_error)) break;
+      const auto at = order_point(h);
+      if (!at || !(at->error < most_error)) break;
       bool go_on = false;
       if (!is_done(symplectic)) {
-        const auto vote = symplectic_vote(h, *error);
+        const auto vote = symplectic_vote(*at);
         if (vote) add(symplectic, *vote);
         go_on = !is_done(symplectic);
       }
       if (!is_done(symmetric) && no_way_back.empty()) {
-        const auto vote = symmetric_vote(h, *error);
+        const auto vote = symmetric_vote(*at);
         if (vote) add(symmetric, *vote);
         if (!vote) no_way_back = failure_;
         go_on = go_on || !is_done(symmetric);
       }
-      if (const auto votes = invariant_votes(h, *error)) {
+      if (const auto votes = invariant_votes(*at)) {
         for (std::size_t i = 0; i < kept.size(); ++i) {
           if (is_done(kept[i])) continue;
           add(kept[i], (*votes)[i]);

@@ -262,6 +262,7 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   const bool t_rejects = found.p_value < DriftStatistics::level;
   const bool sign_rejects = found.sign_p_value < RunDrift::sign_level;
   const double e = found.growth_exponent;
+  const char* const steadily = found.mean_increment < 0 ? "the energy falls steadily" : "the energy rises steadily";
   const bool rejected = (t_rejects || sign_rejects) && t.size >= clear_trend && t.rank >= clear_rank;
   const bool stands_out = t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks;
   if ((rejected || stands_out) && must_turn_back(series, largest)) {
@@ -273,8 +274,7 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return undecided("a trend is seen that did not go on: in one half of the run the energy stays where it is");
   }
   if (rejected) {
-    return {DriftClass::linear,
-            t_rejects ? "the mean increment of a block is not 0" : "nearly all increments have one sign"};
+    return {DriftClass::linear, t_rejects ? steadily : "nearly all increments have one sign"};
   }
   if (stands_out) {
     return {DriftClass::linear,
@@ -284,7 +284,8 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return {DriftClass::linear, "the energy left its value at the start for good, and the motion outgrew what it was"};
   }
   if (t_rejects) {
-    return undecided("the mean increment of a block is not 0, but the energy does not go one way over the run");
+    return undecided(fmt::format("the energy {} from block to block, but does not go one way over the run",
+                                 found.mean_increment < 0 ? "falls" : "rises"));
   }
   if (largest > series.scale) return undecided("the energy error is above the scale of the energy itself");
   const std::string grows = fmt::format("the error grows like t^{:.2f}", e);

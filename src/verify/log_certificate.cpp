@@ -229,6 +229,62 @@ bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
                      [&](const Line& part) { return std::abs(part.slope) > errors * part.slope_error; });
 }
 
+/// The mean absolute deviation from their mean in each of `parts` parts of the log of equal duration: how high the rare
+/// peaks of an eccentric orbit are seen, which is chance, counts for less than in the RMS or the range.
+std::vector<double> deviations_of_parts(const std::vector<double>& t, const std::vector<double>& x, std::size_t parts) {
+  std::vector<double> all;
+  const double whole = t.back() - t.front();
+  std::size_t begin = 0;
+  for (std::size_t part = 1; part <= parts; ++part) {
+    const double until = t.front() + whole * (static_cast<double>(part) / static_cast<double>(parts));
+    const auto end =
+        part == parts ? t.size() : static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), until) - t.begin());
+    const double count = static_cast<double>(end - begin);
+    double mean = 0;
+    for (std::size_t i = begin; i < end; ++i) mean += x[i] / count;
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += std::abs(x[i] - mean) / count;
+    all.push_back(sum);
+    begin = end;
+  }
+  return all;
+}
+
+/// How an oscillation of the energy error grows over the log; empty where it does not, or by no more than noise
+/// explains. An amplitude that changes and returns, as in a beat, has no trend.
+std::string growth_of_oscillation(const std::vector<double>& t, const std::vector<double>& x, double periods) {
+  constexpr double level = 1e-4;          // of the t-test
+  constexpr double clear = 1.1;           // parts that are no whole number of periods long differ by a few per cent
+  constexpr double clearly_at_end = 1.5;  // of an oscillation that has begun to grow late
+  constexpr std::size_t coarse = 8;       // at least two periods in each
+  const std::size_t parts = periods >= 64 && t.size() >= 256 ? 2 * coarse : coarse;
+  const std::vector<double> sizes = deviations_of_parts(t, x, parts);
+  std::vector<double> place;      // amplitudes like exp(ct)
+  std::vector<double> log_place;  // like t^c
+  std::vector<double> logarithm;
+  for (std::size_t k = 0; k < parts; ++k) {
+    if (!(sizes[k] > 0)) return {};
+    place.push_back(static_cast<double>(k));
+    log_place.push_back(std::log(static_cast<double>(k) + 0.5));
+    logarithm.push_back(std::log(sizes[k]));
+  }
+  const auto rises_along = [&](const std::vector<double>& along) {
+    const Line line = fitted_line(along, logarithm);
+    return line.slope * (along.back() - along.front()) > std::log(clear) &&
+           line.slope > student_quantile(level, static_cast<int>(parts) - 2) * line.slope_error;
+  };
+  const bool has_trend = rises_along(place) || rises_along(log_place);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(parts / 2);
+  const bool ends_larger =
+      std::min(sizes[parts - 1], sizes[parts - 2]) > clearly_at_end * *std::max_element(sizes.begin(), middle);
+  if (!has_trend && !ends_larger) return {};
+  return fmt::format(
+      "the oscillation of the energy error grows over the log, from {:.2g} to {:.2g} (mean deviation in the first and "
+      "in "
+      "the last of {} parts)",
+      sizes.front(), sizes.back(), parts);
+}
+
 void leave_undecided(RunDrift& drift, std::string reason) {
   drift.drift.reset();
   drift.reason = std::move(reason);
@@ -302,6 +358,9 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
           found.drift,
           "no drift is seen, but the energy goes one way throughout a quarter of the log: an oscillation as "
           "slow as that has to be seen 16 times");
+    } else if (const std::string grows = growth_of_oscillation(t, energy, found.drift.periods.value_or(0));
+               !grows.empty()) {
+      leave_undecided(found.drift, grows);
     }
   } else if (!found.drift.drift && goes_straight(times, energies)) {
     found.drift.drift = DriftClass::linear;

@@ -25,6 +25,10 @@ CertifiedLog certify_file(const std::filesystem::path& file, const std::string& 
     found.notes.push_back(fmt::format("{} has {} tables; the last one is read, {} rows", file.string(), columns.tables,
                                       columns.time.size()));
   }
+  if (columns.cut_line > 0) {
+    found.notes.push_back(
+        fmt::format("{}:{} is cut: the last line has no end, and is left out", file.string(), columns.cut_line));
+  }
   return found;
 }
 

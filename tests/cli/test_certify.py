@@ -73,11 +73,31 @@ class Certify(CommandCase):
         # A run that goes on has no "Loop time" yet; a last table of one row is that of `run 0`.
         self.write("grows.log", "LAMMPS (2Sep21)\n" + thermo(steps, LINEAR).split("Loop")[0])
         self.assertEqual(self.certified("grows.log", "Step", "TotEng")["drift"], "linear")
+        # A killed run has written a part of its last line.
+        whole = "LAMMPS (2Sep21)\n" + thermo(steps, LINEAR).split("Loop")[0]
+        for cut in (whole + "    300000 1.", whole + "    300000 1.5 -0.4", whole + "    30", whole + "    300000 1.5 -"):
+            self.write("killed.log", cut)
+            done = self.hamflow("certify", "killed.log", "--time", "Step", "--energy", "TotEng")
+            self.assertIn("linear", done.stdout)
+            self.assertIn("note: killed.log:3003 is cut: the last line has no end, and is left out", done.stderr)
+            self.assertEqual(self.certified("killed.log", "Step", "TotEng")["samples"], 3000)
         self.write("zero.log", "LAMMPS (2Sep21)\n" + thermo(steps, LINEAR) + thermo([300_000], [1.0]))
         self.assertEqual(self.certified("zero.log", "Step", "TotEng")["samples"], 3000)
         self.assertIn("did you mean TotEng?", self.refused("log.lammps", "Step", "TotEn"))
         self.write("none.log", "LAMMPS (2Sep21)\nERROR: no such pair style\n")
         self.assertIn("no thermo output", self.refused("none.log", "Step", "TotEng"))
+
+    def test_a_last_line_without_its_end(self):
+        whole = "t,x,E\n" + rows(",", T, LINEAR, BOUNDED)
+        for cut in ("300.0", "300.0,-0.5"):
+            self.write("cut.csv", whole + cut)
+            done = self.hamflow("certify", "cut.csv", "--time", "t", "--energy", "E")
+            self.assertIn("note: cut.csv:3002 is cut", done.stderr)
+            self.assertEqual(self.certified("cut.csv", "t", "E")["samples"], 3000)
+        self.write("cut.csv", whole + "300.0,-0.5,-0.5")
+        self.assertEqual(self.certified("cut.csv", "t", "E")["samples"], 3001)
+        self.write("cut.csv", whole + "300.0,-0.5\n")
+        self.assertIn("found 2 columns; allowed 3", self.refused("cut.csv", "t", "E"))
 
     def test_hdf5(self):
         with h5py.File(self.folder / "run.h5", "w") as f:

@@ -23,7 +23,7 @@ struct StepProblem {
   std::shared_ptr<const ProblemEntry> entry{};
   std::map<std::string, std::string> variant{};
   Texts parameters{};       // complete
-  std::vector<double> q{};  // a state of the motion; empty: one in general position is chosen
+  std::vector<double> q{};  // a state of the motion; empty: the one that the catalogue declares
   std::vector<double> p{};
 };
 
@@ -47,7 +47,7 @@ struct StepCertificate {
 
 /// Measures a step on a problem.
 ///
-/// - Order: errors of single steps from four states, against the flow in long double, with steps from a third of a
+/// - Order: errors of single steps from four states, against Taylor series in long double, with steps from a third of a
 ///   period down until the error is no smooth function of h; the exponent of log E = a + (r + 1) log h + b h + c h^2
 ///   over the finest that fit.   [HLW2006, Sect. II.1]
 /// - Symplecticity: the Jacobian by central differences of order 6, with three difference lengths whose disagreement is
