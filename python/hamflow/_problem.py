@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
@@ -84,6 +85,10 @@ class Problem:
                 raise TypeError(f"hamiltonian: found {shown(hamiltonian)}; allowed a text, a function, a SymPy expression, or a dict")
             else:
                 text = str(hamiltonian).replace("**", "^")
+                if not isinstance(hamiltonian, str):  # SymPy's names of what formulas call otherwise
+                    text = text.replace("Abs(", "abs(")
+                    if "E" not in {str(symbol) for symbol in hamiltonian.free_symbols}:
+                        text = re.sub(r"\bE\b", "exp(1)", text)
             self.table = {"name": "formula", "coordinates": names, "hamiltonian": text} | keys
             if parameters:
                 self.table["parameters"] = dict(parameters)

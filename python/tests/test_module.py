@@ -415,6 +415,19 @@ def test_memory_does_not_grow_with_objects():
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096  # kB
 
 
+def test_names_of_sympy():
+    """Abs and E, as SymPy prints them."""
+
+    class Expression:
+        free_symbols = {"x", "p_x"}
+
+        def __str__(self):
+            return "p_x**2/2 + Abs(x)**3 + E*x**2"
+
+    found = hf.Problem(Expression(), coordinates=["x"])
+    assert found.energy([-0.5], [1.0]) == pytest.approx(0.5 + 0.125 + np.exp(1) / 4, rel=1e-15)
+
+
 def test_reprs_are_one_line():
     run = hf.run(SECTION)
     for each in (swing(), simulation(), simulation().sample(steps=3), hf.Scenario(SECTION), run, run.section, hf.methods()):
