@@ -187,7 +187,8 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     ------
     Rejection, FileError
     KeyboardInterrupt, Error
-        And what `progress` raises. The attribute `partial` is the sweep so far: after Ctrl-C, and where workers of the cluster failed.
+        And what `progress` raises. The attribute `partial` is the sweep so far: after Ctrl-C, where None says that members
+        were still being read, and where workers of the cluster failed.
 
     Examples
     --------
@@ -205,8 +206,12 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     if client is not None:
         return _on_cluster(client, str(wanted), [_varied(key, values) for key, values in varied.items()], zip, out,
                            existing, progress)
-    found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
-                        Path(out) if out is not None else "", existing, progress_of_both(progress))
+    try:
+        asked = [_varied(key, values) for key, values in varied.items()]
+        found = _core.sweep(str(wanted), asked, zip, threads or 0, Path(out) if out is not None else "", existing,
+                            progress_of_both(progress))
+    except KeyboardInterrupt as error:  # while members were read
+        raise stopped(error, None) from None
     result = Sweep(found)
     if found["interrupted"] is not None:
         raise stopped(found["interrupted"], result)

@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
 #include "signals.hpp"
 #include "values.hpp"
@@ -22,7 +23,17 @@ namespace {
 /// A sweep that has been checked, with its folder. To be called without the lock.
 std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const std::filesystem::path& folder,
                                              Existing existing) {
-  auto sweep = std::make_unique<ScenarioSweep>(request);
+  Interrupts interrupts;
+  const std::function<bool()> goes_on = [&] { return interrupts.go_on(0); };
+  std::unique_ptr<ScenarioSweep> sweep;
+  try {
+    const StopQuestion question(goes_on);
+    sweep = std::make_unique<ScenarioSweep>(request);
+  } catch (const ReadingStopped&) {
+    const py::gil_scoped_acquire lock;
+    const Interrupts asked = std::exchange(interrupts, Interrupts());
+    asked.rethrow();
+  }
   if (!sweep->complaints().empty()) throw Rejection(sweep->complaints());
   if (folder.empty()) return sweep;
   auto wrong = sweep->keep_in(folder, existing);

@@ -234,3 +234,17 @@ def test_digits_in_double_are_refused_before_the_run():
     with pytest.raises(hf.Error, match="double-double"):
         hf.run({"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": [0.3, 0]}}, "method": "stv4",
                 "run": {"dt": 0.05, "steps": 10**12}}, digits=True)
+
+
+def test_ctrl_c_while_members_are_read():
+    """It is said by `partial`, which is None: no member has begun."""
+    import signal
+    import threading
+
+    stop = threading.Timer(0.15, os.kill, (os.getpid(), signal.SIGINT))
+    stop.start()
+    with pytest.raises(KeyboardInterrupt) as error:
+        hf.sweep({"problem": {"name": "henon-heiles", "initial": {"q": [0, 0.1], "p": [0.3, 0]}}, "method": "stv4",
+                  "run": {"dt": 0.05, "steps": 10**7, "certificate": False}},
+                 {"problem.initial.q[1]": np.linspace(-0.3, 0.3, 100_000)})
+    assert error.value.partial is None or len(error.value.partial) == 100_000

@@ -6,6 +6,7 @@
 
 #include "hamflow/core/hash.hpp"
 #include "hamflow/core/option_names.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/run/walls.hpp"
 #include "memory.hpp"
 #include "on_threads.hpp"
@@ -57,6 +58,10 @@ void Sweep::read_members(const std::string& name) {
   const auto work = [&] {
     MemberReader reader(varied_, raw_text_, name, sets_);
     for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
+      if (StopQuestion::answered()) {  // on the thread of the caller alone
+        next = rows_.size();
+        throw ReadingStopped();
+      }
       for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
         if (member != 0 && !is_own(member)) continue;  // member 0 tells what all have in common
         const Reading reading = reader.read(member);
