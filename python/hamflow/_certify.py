@@ -184,7 +184,7 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
     order : int, optional
         The order that is claimed; it agrees within 0.5, from order 7 on within 1.
     symplectic, symmetric : bool, optional
-        What is claimed. Without it the property is measured and not compared.
+        The claim. A property without a claim is measured, but not compared.
     preserves : str or sequence of str, optional
         What is claimed to be kept to rounding: "energy", and the invariants of the problem, as "angular_momentum".
 

@@ -61,7 +61,7 @@ class FileError(Error, OSError):
 
 
 def shown(found: Any) -> str:
-    """A value in a message: its repr, of which what is long or deep is left out."""
+    """The repr of a value for a message, shortened where it is long or deeply nested."""
     return reprlib.repr(found)
 
 

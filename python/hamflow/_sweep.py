@@ -87,7 +87,7 @@ class Sweep:
         Raises
         ------
         Error
-            Where the column is none of numbers, or more than two keys were varied by themselves.
+            If the column has no numbers, or if more than two keys were varied.
         """
         keys = [name for name in self.columns if name.startswith("varied/") and self._is_number(name)]
         if len(keys) not in (1, 2):
@@ -241,7 +241,7 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
             gathered.take(future.result())
             if told is not None:
                 told(members * done // count, members)
-    except (KeyboardInterrupt, Exception) as error:  # what is finished is kept
+    except (KeyboardInterrupt, Exception) as error:  # finished members are kept
         trouble = error
         client.cancel(futures)
     result = Sweep(gathered.found())

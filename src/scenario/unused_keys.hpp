@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// What is measured beside a run: "run.section is not used: WHY"; none where nothing is.
+/// Notes on unused measurements, such as "run.section is not used: WHY"; empty if all are used.
 std::vector<std::string> unused_measures(const Scenario& scenario, const std::string& why);
 /// The same of output.figures.
 std::vector<std::string> unused_figures(const Scenario& scenario, const std::string& why);

@@ -473,7 +473,8 @@ class StepExamination {
       for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
       return sum;
     };
-    // Each column is freed of those before it: what is left of log E along what is left of log h is the exponent.
+    // Each column is made orthogonal to those before it. The exponent is the slope of the remaining log E
+    // over the remaining log h.
     for (std::size_t k = 0; k + 2 < columns.size(); ++k) {
       for (std::size_t l = k + 1; l < columns.size(); ++l) {
         const double along = product(columns[k], columns[l]) / product(columns[k], columns[k]);

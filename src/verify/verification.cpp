@@ -59,7 +59,7 @@ struct Job {
 
 }  // namespace
 
-/// The thread of the caller waits, so that it can tell what is there when it is interrupted.
+/// The caller's thread only waits. After an interrupt it can so return the rows that are finished.
 class Verification::Impl {
  public:
   explicit Impl(const VerificationRequest& request) {

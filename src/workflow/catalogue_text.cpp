@@ -71,8 +71,8 @@ bool write_keys(std::ostream& out, const std::string& name) {
   return false;
 }
 
-/// What was asked for where there is nothing of that name: the choices of problems come first, since "kepler"
-/// is no slip of "euler".
+/// Suggests what an unknown name was meant to be. Choices of problems are tried first: "kepler" is a potential, not a
+/// misspelt "euler".
 std::string meant_by(const std::string& name, const std::vector<std::string>& names) {
   if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
     return "; did you mean " + run_path(run_keys().arithmetic) + " = \"" + name + "\"?";

@@ -27,7 +27,7 @@ struct StepProblem {
   std::vector<double> p{};
 };
 
-/// What is said of a step; what is left out is measured and not compared.
+/// Claims about a step. A property without a claim is measured, but not compared.
 struct StepClaims {
   std::optional<int> order{};
   std::optional<bool> symplectic{};

@@ -24,7 +24,7 @@ struct ComparisonInput {
 
 struct ComparisonReading {
   ComparisonRequest request;
-  std::vector<std::string> notes;     // what is worth saying about a request that is accepted
+  std::vector<std::string> notes;     // remarks about an accepted request
   std::vector<Complaint> complaints;  // nothing can be run while there is one
 };
 
