@@ -55,11 +55,10 @@ Workload workload(std::size_t count, const std::string& method, const std::strin
     auto simulation = hamflow::simulate<watch>(problem, recipe, q, p, h);
     return run_block(simulation, steps);
   };
-  const auto named = [=](bool watch, const std::string& kernel) {
+  const auto named = [=](bool watch) {
     return [=](std::int64_t steps) {
       hamflow::Request one = request;
       one.watch = watch;
-      one.kernel = kernel;
       return run_recorded(one, steps);
     };
   };
@@ -69,12 +68,8 @@ Workload workload(std::size_t count, const std::string& method, const std::strin
   w.contenders.push_back({"typed", [=](std::int64_t steps) { return typed.template operator()<false>(steps); }, {}});
   w.contenders.push_back(
       {"typed, watched", [=](std::int64_t steps) { return typed.template operator()<true>(steps); }, {}});
-  w.contenders.push_back({"named", named(false, "exact"), "typed", count <= 10 ? 0.7 : 1});
-  w.contenders.push_back({"watched", named(true, "exact"), "typed, watched",
-                          count <= 6    ? 0.55
-                          : count <= 10 ? 0.7
-                                        : 1});
-  w.contenders.push_back({"named, fast", named(false, "fast"), "named", 0, !hamflow::fast_kernel_available()});
+  w.contenders.push_back({"named", named(false), "typed", count <= 10 ? 0.7 : 1});
+  w.contenders.push_back({"watched", named(true), "typed, watched", count <= 6 ? 0.55 : count <= 10 ? 0.7 : 1});
   return w;
 }
 

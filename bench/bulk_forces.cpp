@@ -87,16 +87,10 @@ void all_pairs(const char* title, std::size_t per_side, BulkPairSystem::Law law)
   if (BulkForces::has(BulkSet::avx2)) racers.push_back({"hand avx2", [&] { loop_avx2<Pair, Space>(swarm); }});
   if (BulkForces::has(BulkSet::avx512)) racers.push_back({"hand avx512", [&] { loop_avx512<Pair, Space>(swarm); }});
   const std::size_t opponents = racers.size();
-  for (const BulkKernel kernel : {BulkKernel::exact, BulkKernel::fast}) {
-    for (const BulkSet set : {BulkSet::sse2, BulkSet::avx2, BulkSet::avx512}) {
-      if (!BulkForces::has(set) || (kernel == BulkKernel::fast && set == BulkSet::sse2)) continue;
-      const BulkForces bulk(s, kernel, set);
-      const std::string name =
-          std::string(kernel == BulkKernel::exact ? "exact " : "fast ") + (set == BulkSet::sse2   ? "sse2"
-                                                                           : set == BulkSet::avx2 ? "avx2"
-                                                                                                  : "avx512");
-      racers.push_back({name, [&f, &q, bulk] { bulk.force(q.data(), f.data()); }});
-    }
+  for (const BulkSet set : {BulkSet::sse2, BulkSet::avx2, BulkSet::avx512}) {
+    if (!BulkForces::has(set)) continue;
+    const std::string name = set == BulkSet::sse2 ? "sse2" : set == BulkSet::avx2 ? "avx2" : "avx512";
+    racers.push_back({name, [&f, &q, bulk = BulkForces(s, set)] { bulk.force(q.data(), f.data()); }});
   }
   // The loops and the library have to agree.
   plain_loop<Pair, Space>(swarm);

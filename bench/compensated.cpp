@@ -60,13 +60,12 @@ Run run_compensated(const Task& task, const P& problem, const Recipe& recipe, st
 /// One addition of an increment to low and one rounding less per action: the bound of plain arithmetic holds.
 template <const auto& weights, class Recipe>
 void add(Workload& w, const Task& task, const Recipe& recipe) {
-  const bool fast = hamflow::fast_kernel_available();
   const auto put = [&](const std::string& plain, double goal, auto run, const std::string& bits_of) {
     w.contenders.push_back({plain + ", compensated", run, plain, goal, false, 1, bits_of});
   };
-  const std::string hand = "hand, compensated", typed_fast = "typed, fast, compensated";
-  const auto named = [task, method = w.method](bool watch, const std::string& kernel) {
-    return [=](std::int64_t steps) { return run_named(task, method, watch, steps, kernel, "compensated"); };
+  const std::string hand = "hand, compensated";
+  const auto named = [task, method = w.method](bool watch) {
+    return [=](std::int64_t steps) { return run_named(task, method, watch, steps, "compensated"); };
   };
   put("hand", 0,
       [=](std::int64_t steps) {
@@ -75,13 +74,8 @@ void add(Workload& w, const Task& task, const Recipe& recipe) {
       {});
   put(
       "typed", 1.15, [=](std::int64_t steps) { return run_compensated(task, kepler(task), recipe, steps); }, hand);
-  put("named", 1.15, named(false, "exact"), hand);
-  put("watched", 0, named(true, "exact"), hand);
-  put(
-      "typed, fast", 1.3,
-      [=](std::int64_t steps) { return run_compensated(task, hamflow::FastKernel{kepler(task)}, recipe, steps); },
-      fast ? "" : hand);
-  put("named, fast", 1.3, named(false, "fast"), typed_fast);
+  put("named", 1.15, named(false), hand);
+  put("watched", 0, named(true), hand);
 }
 
 }  // namespace

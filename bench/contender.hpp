@@ -76,8 +76,6 @@ std::vector<Workload> order_eight_workloads(const Task& task);
 std::vector<Workload> body_workloads();
 /// Masses on crossed rails between walls.
 std::vector<Workload> tube_workloads();
-/// For verlet, stv4 and kahan-li8.
-void add_fast_contenders(Workload& workload, const Task& task);
 /// For stv4 and kahan-li8, after the plain contenders.
 void add_compensated_contenders(Workload& workload, const Task& task);
 void add_lane_contenders(Workload& workload, const Task& task);

@@ -140,7 +140,6 @@ Workload workload(const Task& task, const std::string& method, int forces, const
         {"hand, folded", [=](std::int64_t steps) { return run_hand(task, folded, forces, steps); }, "hand", 0, false});
   }
   add_library_contenders(w, task, recipe, 1.03, true);
-  add_fast_contenders(w, task);
   add_compensated_contenders(w, task);
   add_lane_contenders(w, task);
   add_peers(w, task);

@@ -8,9 +8,8 @@ namespace bench {
 
 namespace {
 
-Run run_lanes(const Task& task, const std::string& method, hamflow::LaneSet set, bool watch, const std::string& kernel,
-              std::int64_t steps) {
-  hamflow::Request request = kepler_request(task, kernel, "double");
+Run run_lanes(const Task& task, const std::string& method, hamflow::LaneSet set, bool watch, std::int64_t steps) {
+  hamflow::Request request = kepler_request(task, "double");
   request.method = hamflow::parse_method(method);
   request.watch = watch;
   const auto block = hamflow::make_ensemble_block(request, set);
@@ -41,21 +40,16 @@ void add_lane_contenders(Workload& workload, const Task& task) {
   const bool is_stv4 = workload.method == "stv4";
   const LaneSet widest = hamflow::widest_lanes();
   if ((!is_stv4 && workload.method != "verlet" && workload.method != "kahan-li8") || widest < LaneSet::avx2) return;
-  const auto put = [&](const std::string& text, LaneSet set, bool watch, const std::string& kernel, double goal) {
-    const bool exact = kernel == "exact";
-    workload.contenders.push_back({text,
-                                   [=, method = workload.method](std::int64_t steps) {
-                                     return run_lanes(task, method, set, watch, kernel, steps);
-                                   },
-                                   "hand", goal, exact, 1, exact ? "" : "typed, fast"});
+  const auto put = [&](const std::string& text, LaneSet set, bool watch, double goal) {
+    workload.contenders.push_back(
+        {text, [=, method = workload.method](std::int64_t steps) { return run_lanes(task, method, set, watch, steps); },
+         "hand", goal, true});
   };
-  put("lanes, avx2", LaneSet::avx2, false, "exact", 0);
+  put("lanes, avx2", LaneSet::avx2, false, 0);
   if (widest < LaneSet::avx512) return;
   // The goals are for AVX-512, stated for stv4.
-  put("lanes", widest, false, "exact", is_stv4 ? 1.0 / 8 : 0);
-  put("lanes, watched", widest, true, "exact", 0);
-  put("lanes, fast", widest, false, "fast", is_stv4 ? 1.0 / 15 : 0);
-  put("lanes, fast watched", widest, true, "fast", 0);
+  put("lanes", widest, false, is_stv4 ? 1.0 / 8 : 0);
+  put("lanes, watched", widest, true, 0);
 }
 
 }  // namespace bench

@@ -8,7 +8,6 @@
 
 #include "contender.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
-#include "hamflow/problems/support/fast_kernel.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
 
@@ -57,13 +56,6 @@ Run run_typed(const Task& task, const Recipe& recipe, std::int64_t steps) {
   return run_block(simulation, steps);
 }
 
-template <class Recipe>
-Run run_typed_fast(const Task& task, const Recipe& recipe, std::int64_t steps) {
-  const hamflow::FastKernel problem{kepler(task)};
-  auto simulation = hamflow::simulate<false>(problem, recipe, task.start.q, task.start.p, task.h);
-  return run_block(simulation, steps);
-}
-
 /// A whole request. Recording and compiling, once in a run, is not timed; neither are the steps before it.
 /// @param until_recorded how many steps that takes
 inline Run run_recorded(const hamflow::Request& request, std::int64_t steps, std::int64_t until_recorded = 300) {
@@ -75,7 +67,7 @@ inline Run run_recorded(const hamflow::Request& request, std::int64_t steps, std
   return run;
 }
 
-/// @param request problem, kernel and arithmetic
+/// @param request problem and arithmetic
 inline Run run_request(hamflow::Request request, const Task& task, const std::string& method, bool watch,
                        std::int64_t steps) {
   for (const double x : task.start.q) request.start.q.push_back(hamflow::shortest(x));
@@ -86,19 +78,18 @@ inline Run run_request(hamflow::Request request, const Task& task, const std::st
   return run_recorded(request, steps);
 }
 
-inline hamflow::Request kepler_request(const Task& task, const std::string& kernel, const std::string& arithmetic) {
+inline hamflow::Request kepler_request(const Task& task, const std::string& arithmetic) {
   hamflow::Request request;
   request.problem = "central-force";
   request.variant = {{"potential", "kepler"}};
   request.parameters = {{"mass", hamflow::shortest(task.mass)}, {"k", hamflow::shortest(task.k)}};
-  request.kernel = kernel;
   request.arithmetic = arithmetic;
   return request;
 }
 
 inline Run run_named(const Task& task, const std::string& method, bool watch, std::int64_t steps,
-                     const std::string& kernel = "exact", const std::string& arithmetic = "double") {
-  return run_request(kepler_request(task, kernel, arithmetic), task, method, watch, steps);
+                     const std::string& arithmetic = "double") {
+  return run_request(kepler_request(task, arithmetic), task, method, watch, steps);
 }
 
 template <class Recipe>

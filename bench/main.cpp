@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "report.hpp"
 
 namespace bench {
@@ -23,8 +22,7 @@ Task unit_task(double h) {
 
 namespace {
 
-/// Nothing is to be slower than a peer at the same method; the fast kernel is to be 1.4 times as fast per force as any
-/// peer's splitting where the machine has its instructions.
+/// Nothing is to be slower than a peer at the same method.
 std::vector<Comparison> comparisons() {
   std::vector<Comparison> all{{"euler-a", "typed", "euler-a", "odeint"},
                               {"verlet", "typed", "verlet", "odeint"},
@@ -38,13 +36,6 @@ std::vector<Comparison> comparisons() {
                               {"cg(1,5)", "typed", "cg(1,1)", "gsl"},
                               {"cg(1,5)", "typed", "cg(1,5)", "hand, two lanes", false, 1.15},
                               {"cg(1,5)", "typed", "cg(1,1)", "arkode", false, 0.2}};
-  if (hamflow::fast_kernel_available()) {
-    for (const char* method : {"verlet", "stv4"}) {
-      for (const char* peer_method : {"verlet", "sb3a_m4"}) {
-        all.push_back({method, "typed, fast", peer_method, "odeint", true, 1 / 1.4});
-      }
-    }
-  }
   return all;
 }
 

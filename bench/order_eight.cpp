@@ -115,7 +115,6 @@ std::vector<Workload> order_eight_workloads(const Task& task) {
        [=](std::int64_t steps) { return run_hand(task, hand_folded<kahan_li8_weights>, forces, steps); }, "hand", 0,
        false});
   add_library_contenders(w, task, recipe, 1.1, true);
-  add_fast_contenders(w, task);
   add_compensated_contenders(w, task);
   add_lane_contenders(w, task);
   return {w, well_workload(well_task(task), forces, recipe)};

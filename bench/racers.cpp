@@ -15,7 +15,6 @@
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/methods/splittings/rkn8_s19.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
-#include "hamflow/problems/support/fast_kernel.hpp"
 #include "library.hpp"
 #include "mclachlan.hpp"
 #include "peers.hpp"
@@ -44,11 +43,6 @@ Racer on_ellipse(const std::string& name, int order, const Runner& run) {
 template <class Recipe>
 Racer typed(const std::string& name, int order, const Recipe& recipe) {
   return on_ellipse(name, order, [=](const Task& task, std::int64_t steps) { return run_typed(task, recipe, steps); });
-}
-template <class Recipe>
-Racer typed_fast(const std::string& name, int order, const Recipe& recipe) {
-  return on_ellipse(name, order,
-                    [=](const Task& task, std::int64_t steps) { return run_typed_fast(task, recipe, steps); });
 }
 
 std::string by_fixed_point(int stages) { return "gauss(stages=" + std::to_string(stages) + ",iteration=fixed-point)"; }
@@ -147,13 +141,6 @@ Course ellipse() {
   for (const int stages : {4, 8}) {
     all.push_back(typed(gauss_name(stages), 2 * stages, Gauss{{.stages = stages}}));
     all.push_back(ellipse_by_name(gauss_name(stages) + ", fixed-point", 2 * stages, by_fixed_point(stages)));
-  }
-  if (fast_kernel_available()) {
-    all.push_back(typed_fast("stv4, fast", 4, Composition<compositions::stv4>{}));
-    all.push_back(typed_fast("suzuki4, fast", 4, Composition<compositions::suzuki4>{}));
-    all.push_back(typed_fast("yoshida6, fast", 6, Composition<compositions::yoshida6>{}));
-    all.push_back(typed_fast("kahan-li8, fast", 8, Composition<compositions::kahan_li8>{}));
-    all.push_back(typed_fast("rkn8-s19, fast", 8, SplittingBy<splittings::rkn8_s19>{}));
   }
   for (const auto& peers : {odeint_peers(), gsl_peers()}) {
     // At these accuracies a first-order method takes 10^8 steps and more.

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "peers.hpp"
 
 namespace bench {
@@ -106,7 +105,6 @@ std::string as_json(const Measured& measured, const std::vector<Race>& races, co
                 {"compiler", compiler},
                 {"build", HAMFLOW_BENCH_BUILD},
                 {"flags", HAMFLOW_BENCH_FLAGS},
-                {"fast_kernel", hamflow::name(hamflow::fast_kernel_instruction_set())},
                 {"peers", {odeint_version(), gsl_version(), arkode_version()}},
                 {"rounds", plan.rounds},
                 {"block_ms", plan.block_nanoseconds / 1e6},
@@ -123,8 +121,8 @@ std::string as_json(const Measured& measured, const std::vector<Race>& races, co
 
 std::string as_text(const Measured& measured, const std::vector<Race>& races, const Plan& plan) {
   std::string out = fmt::format("{}, {}, {} ({})\n", cpu_model(), compiler, HAMFLOW_BENCH_BUILD, HAMFLOW_BENCH_FLAGS);
-  out += fmt::format("fast kernel: {}; {}; {}; {}\n", hamflow::name(hamflow::fast_kernel_instruction_set()),
-                     odeint_version(), gsl_version(), arkode_version());
+  out += fmt::format("{}; {}; {}
+", odeint_version(), gsl_version(), arkode_version());
   out += fmt::format("{} interleaved rounds; median [quartiles]\n", plan.rounds);
   for (const Table& table : measured.tables) {
     out += fmt::format("\n{}, dt = {}, {} steps a round\n", table.method, table.h_text, table.steps);

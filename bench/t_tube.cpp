@@ -69,28 +69,7 @@ inline void find_tube_kick(Tube& s, double strength) {
   s.kick_x = pull * s.x;
   s.kick_y = pull * s.y;
 }
-[[gnu::noinline]] void hand_reject(Orbit& z, double h, std::int64_t steps) { BENCH_TUBE_LOOP(find_tube_kick) }
-
-#ifdef __x86_64__
-/// By estimate and series, with the operations of core/inverse_cube.hpp.
-[[gnu::target("avx512f,fma"), gnu::always_inline]] inline void find_fast_kick(Tube& s, double strength) {
-  const double u = s.x * s.x + s.y * s.y;
-  const __m128d v = _mm_set_sd(u);
-  const double y = _mm_cvtsd_f64(_mm_rsqrt14_sd(v, v));
-  const double yy = y * y;
-  const double e = __builtin_fma(-u, yy, 1.0);
-  const double sum = __builtin_fma(e * e, __builtin_fma(e, 315.0 / 128, 35.0 / 16), __builtin_fma(e, 15.0 / 8, 1.5));
-  const double leading = strength * (y * yy);
-  const double pull = __builtin_fma(leading * e, sum, leading);
-  s.kick_x = pull * s.x;
-  s.kick_y = pull * s.y;
-}
-[[gnu::target("avx512f,fma"), gnu::noinline]] void hand_reject_fast(Orbit& z, double h, std::int64_t steps) {
-  BENCH_TUBE_LOOP(find_fast_kick)
-}
-#else
-constexpr auto hand_reject_fast = hand_reject;
-#endif
+[[gnu::noinline]] void hand_reject(Orbit& z, double h, std::int64_t steps){BENCH_TUBE_LOOP(find_tube_kick)}
 
 Run run_tube_by_hand(void (*loop)(Orbit&, double, std::int64_t), double h, std::int64_t steps) {
   Run run;
@@ -100,8 +79,7 @@ Run run_tube_by_hand(void (*loop)(Orbit&, double, std::int64_t), double h, std::
   return run;
 }
 
-hamflow::Request tube_request(hamflow::WallRule rule, const std::string& h_text, const std::string& kernel,
-                              bool watch) {
+hamflow::Request tube_request(hamflow::WallRule rule, const std::string& h_text, bool watch) {
   hamflow::Request request;
   request.problem = "t-tube";
   request.parameters = {{"masses", "[1, 100]"}, {"eps", "-0.6"}};
@@ -109,7 +87,6 @@ hamflow::Request tube_request(hamflow::WallRule rule, const std::string& h_text,
   request.start.p = {"6", "100"};
   request.method = hamflow::parse_method("stv4");
   request.dt = h_text;
-  request.kernel = kernel;
   request.watch = watch;
   hamflow::Walls walls;
   walls.intervals = {{"q1", 0, "-1", "1"}, {"q2", 1, "0.1", "2.1"}};
@@ -150,40 +127,34 @@ Workload tube_workload(const std::string& h_text) {
     w.contenders.push_back(
         {name, [=](std::int64_t steps) { return run_tube_by_hand(loop, h, steps); }, against, 0, same});
   };
-  const auto named = [&](const std::string& name, WallRule rule, const std::string& kernel, const std::string& against,
-                         double goal, const std::string& bits_of) {
-    const hamflow::Request request = tube_request(rule, h_text, kernel, false);
+  const auto named = [&](const std::string& name, WallRule rule, const std::string& against, double goal,
+                         const std::string& bits_of) {
+    const hamflow::Request request = tube_request(rule, h_text, false);
     // Parts of steps are recorded after some 70 bounces.
     w.contenders.push_back({name, [=](std::int64_t steps) { return run_recorded(request, steps, 40000); }, against,
                             goal, bits_of == "hand", 1, bits_of == "hand" ? "" : bits_of});
   };
-  const auto lanes = [&](const std::string& name, WallRule rule, LaneSet set, bool watch, const std::string& kernel,
-                         const std::string& against, double goal, const std::string& bits_of) {
-    const hamflow::Request request = tube_request(rule, h_text, kernel, watch);
+  const auto lanes = [&](const std::string& name, WallRule rule, LaneSet set, bool watch, const std::string& against,
+                         double goal, const std::string& bits_of) {
+    const hamflow::Request request = tube_request(rule, h_text, watch);
     w.contenders.push_back({name, [=](std::int64_t steps) { return run_tubes(request, set, h, steps); }, against, goal,
                             bits_of == "hand", 1, bits_of == "hand" ? "" : bits_of});
   };
   by_hand("hand", hand_reject, "", true);
-  named("reject", WallRule::reject, "exact", "hand", 1.05, "hand");
-  named("mirror", WallRule::mirror, "exact", "reject", 0, "");
-  named("event", WallRule::event, "exact", "reject", h < 0.005 ? 1.1 : 0, "");
-  const bool fast = hamflow::fast_kernel_available();
-  if (fast) {
-    by_hand("hand, fast", hand_reject_fast, "hand", false);
-    named("reject, fast", WallRule::reject, "fast", "hand, fast", 1.05, "hand, fast");
-  }
+  named("reject", WallRule::reject, "hand", 1.05, "hand");
+  named("mirror", WallRule::mirror, "reject", 0, "");
+  named("event", WallRule::event, "reject", h < 0.005 ? 1.1 : 0, "");
   const LaneSet widest = hamflow::widest_lanes();
   if (widest < LaneSet::avx2) return w;
-  lanes("lanes, avx2", WallRule::reject, LaneSet::avx2, false, "exact", "hand", 1.0 / 6, "hand");
-  lanes("lanes, avx2 watched", WallRule::reject, LaneSet::avx2, true, "exact", "lanes, avx2", 1.2, "hand");
-  lanes("lanes, avx2 mirror", WallRule::mirror, LaneSet::avx2, false, "exact", "hand", 0, "mirror");
-  lanes("lanes, avx2 event", WallRule::event, LaneSet::avx2, false, "exact", "hand", 0, "event");
+  lanes("lanes, avx2", WallRule::reject, LaneSet::avx2, false, "hand", 1.0 / 6, "hand");
+  lanes("lanes, avx2 watched", WallRule::reject, LaneSet::avx2, true, "lanes, avx2", 1.2, "hand");
+  lanes("lanes, avx2 mirror", WallRule::mirror, LaneSet::avx2, false, "hand", 0, "mirror");
+  lanes("lanes, avx2 event", WallRule::event, LaneSet::avx2, false, "hand", 0, "event");
   if (widest < LaneSet::avx512) return w;
-  lanes("lanes", WallRule::reject, widest, false, "exact", "hand", 1.0 / 8, "hand");
-  lanes("lanes, watched", WallRule::reject, widest, true, "exact", "lanes", 1.2, "hand");
-  lanes("lanes, fast", WallRule::reject, widest, false, "fast", "hand", 1.0 / 15, "reject, fast");
-  lanes("lanes, mirror", WallRule::mirror, widest, false, "exact", "hand", 0, "mirror");
-  lanes("lanes, event", WallRule::event, widest, false, "exact", "hand", 0, "event");
+  lanes("lanes", WallRule::reject, widest, false, "hand", 1.0 / 8, "hand");
+  lanes("lanes, watched", WallRule::reject, widest, true, "lanes", 1.2, "hand");
+  lanes("lanes, mirror", WallRule::mirror, widest, false, "hand", 0, "mirror");
+  lanes("lanes, event", WallRule::event, widest, false, "hand", 0, "event");
   return w;
 }
 

@@ -295,7 +295,6 @@ class Shell {
       all[tolerance->name] = text.empty() ? Json("off") : Json(number_value(text));
     }
     all["arithmetic"] = request.arithmetic;
-    all["kernel"] = request.kernel;
     all["record_every"] = samples_.every();
   }
 

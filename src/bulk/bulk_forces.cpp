@@ -56,14 +56,10 @@ BulkSet chosen(BulkSet set) {
   return BulkForces::has(BulkSet::avx2) ? BulkSet::avx2 : BulkSet::sse2;
 }
 
-const bulk::Kernels& kernels_of(BulkKernel kernel, BulkSet set) {
+const bulk::Kernels& kernels_of(BulkSet set) {
   if (!BulkForces::has(set)) throw Error("bulk forces: this machine does not have the instructions asked for");
-  if (kernel == BulkKernel::fast) {
-    if (set == BulkSet::sse2) throw Error("bulk forces: found kernel fast; allowed exact without AVX2");
-    return set == BulkSet::avx512 ? bulk::fast_avx512 : bulk::fast_avx2;
-  }
-  if (set == BulkSet::avx512) return bulk::exact_avx512;
-  return set == BulkSet::avx2 ? bulk::exact_avx2 : bulk::exact_sse2;
+  if (set == BulkSet::avx512) return bulk::avx512;
+  return set == BulkSet::avx2 ? bulk::avx2 : bulk::sse2;
 }
 
 /// The law in the lengths of the coordinates, with what a row's sums lack.
@@ -115,7 +111,7 @@ Scaled scaled(const BulkPairSystem& s) {
 }
 }  // namespace
 
-const bulk::Kernels& bulk::widest_exact() { return kernels_of(BulkKernel::exact, chosen(BulkSet::best)); }
+const bulk::Kernels& bulk::widest() { return kernels_of(chosen(BulkSet::best)); }
 
 bool BulkForces::has(BulkSet set) {
   switch (set) {
@@ -128,12 +124,11 @@ bool BulkForces::has(BulkSet set) {
       return true;
   }
 }
-bool BulkForces::has_fast_kernel() { return has(BulkSet::avx2); }
 
 class BulkForces::Workspace {
  public:
-  Workspace(const BulkPairSystem& system, BulkKernel kernel, BulkSet set)
-      : system_(system), set_(chosen(set)), kernels_(&kernels_of(kernel, set_)), scaled_(scaled(system)) {
+  Workspace(const BulkPairSystem& system, BulkSet set)
+      : system_(system), set_(chosen(set)), kernels_(&kernels_of(set_)), scaled_(scaled(system)) {
     rows_.law = scaled_.law;
     rows_.particles = system.particles;
     rows_.force_factor = scaled_.of_force;
@@ -377,9 +372,9 @@ class BulkForces::Workspace {
   Counts counts_;
 };
 
-BulkForces::BulkForces(const BulkPairSystem& system, BulkKernel kernel, BulkSet set) {
+BulkForces::BulkForces(const BulkPairSystem& system, BulkSet set) {
   check(system);
-  workspace_ = std::make_shared<Workspace>(system, kernel, set);
+  workspace_ = std::make_shared<Workspace>(system, set);
 }
 void BulkForces::force(const double* q, double* f) const { workspace_->force(q, f); }
 double BulkForces::force_and_potential(const double* q, double* f) const {

@@ -93,36 +93,6 @@ HAMFLOW_INLINE Group<N> not_below_zero(const Group<N>& x) {
 #endif
   return r;
 }
-/// a b + c, one rounding in kernel fast, two in kernel exact.
-template <int N>
-HAMFLOW_INLINE Group<N> times_plus(const Group<N>& a, const Group<N>& b, const Group<N>& c) {
-#if HAMFLOW_BULK_FAST
-  Group<N> r;
-#if HAMFLOW_NATIVE_BYTES == 64
-  HAMFLOW_EACH r.v[n] = (Native)_mm512_fmadd_pd((__m512d)a.v[n], (__m512d)b.v[n], (__m512d)c.v[n]);
-#else
-  HAMFLOW_EACH r.v[n] = (Native)_mm256_fmadd_pd((__m256d)a.v[n], (__m256d)b.v[n], (__m256d)c.v[n]);
-#endif
-  return r;
-#else
-  return a * b + c;
-#endif
-}
-/// c - a b, likewise.
-template <int N>
-HAMFLOW_INLINE Group<N> minus_times(const Group<N>& c, const Group<N>& a, const Group<N>& b) {
-#if HAMFLOW_BULK_FAST
-  Group<N> r;
-#if HAMFLOW_NATIVE_BYTES == 64
-  HAMFLOW_EACH r.v[n] = (Native)_mm512_fnmadd_pd((__m512d)a.v[n], (__m512d)b.v[n], (__m512d)c.v[n]);
-#else
-  HAMFLOW_EACH r.v[n] = (Native)_mm256_fnmadd_pd((__m256d)a.v[n], (__m256d)b.v[n], (__m256d)c.v[n]);
-#endif
-  return r;
-#else
-  return c - a * b;
-#endif
-}
 /// The nearest whole number of |x| < 2^51.
 HAMFLOW_INLINE Eight nearest_whole(const Eight& x) {
   const Eight large = all(0x1.8p52);

@@ -76,12 +76,10 @@ struct Kernels {
   FindNear near[2][2];         // [space - 2][with images]
 };
 
-extern const Kernels exact_sse2;
-extern const Kernels exact_avx2;
-extern const Kernels exact_avx512;
-extern const Kernels fast_avx2;
-extern const Kernels fast_avx512;
-/// Those of kernel exact with the widest registers of this machine.
-const Kernels& widest_exact();
+extern const Kernels sse2;
+extern const Kernels avx2;
+extern const Kernels avx512;
+/// Those with the widest registers of this machine.
+const Kernels& widest();
 
 }  // namespace hamflow::bulk

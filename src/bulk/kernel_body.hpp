@@ -1,5 +1,5 @@
-// The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table, HAMFLOW_BULK_FAST is 0
-// or 1. Everything is of this file alone: an inline function of a library, compiled here, could be linked elsewhere.
+// The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table.
+// Everything is of this file alone: an inline function of a library, compiled here, could be linked elsewhere.
 #include <immintrin.h>
 
 #include "kernel.hpp"
@@ -96,7 +96,7 @@ struct RowTile {
       Part u;
       for (int k = 0; k < Space; ++k) {
         const Part d = difference(t, k, j + 8 * h);
-        u = k == 0 ? d * d : times_plus(d, d, u);
+        u = k == 0 ? d * d : d * d + u;
       }
       if constexpr (Some) u = where(counts[h], u, 1);
       r.base[h] = L::base(law, u);
@@ -116,11 +116,11 @@ struct RowTile {
       if constexpr (Some) pair = {where(counts[h], pair.c, 0), where(counts[h], pair.phi, 0)};
       for (int k = 0; k < Space; ++k) {
         const Part d = difference(t, k, there);
-        force[t][n][k] = times_plus(pair.c, d, force[t][n][k]);
+        force[t][n][k] = pair.c * d + force[t][n][k];
         if constexpr (Tile > 1) {
-          feel[h][k] = minus_times(feel[h][k], pair.c, d);
+          feel[h][k] = feel[h][k] - pair.c * d;
         } else {
-          store(minus_times(load<Part>(felt[k] + there), pair.c, d), felt[k] + there);
+          store(load<Part>(felt[k] + there) - pair.c * d, felt[k] + there);
         }
       }
       if constexpr (Energy) energy[t][n] = energy[t][n] + pair.phi;
@@ -263,9 +263,9 @@ template <bool Weighs, int Space, bool Images>
       d[k] = centre[k] - x[k];
       if constexpr (Images) {
         const Eight image = nearest_whole(d[k] * all(rows.inverse_edge[k]));
-        d[k] = minus_times(d[k], image, all(rows.edge[k]));
+        d[k] = d[k] - image * all(rows.edge[k]);
       }
-      u = k == 0 ? d[k] * d[k] : times_plus(d[k], d[k], u);
+      u = k == 0 ? d[k] * d[k] : d[k] * d[k] + u;
     }
     unsigned bits = below(u, limit);
     if (count - j < most_lanes) bits &= (1u << (count - j)) - 1;
@@ -300,7 +300,7 @@ HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t 
       for (int k = 0; k < Space; ++k) {
         r[h].d[k] = load<Part>(here + static_cast<std::size_t>(k) * stride);
         if constexpr (Some) r[h].d[k] = where(counts[h], r[h].d[k], 0);  // what was there before may be no number
-        r[h].u = k == 0 ? r[h].d[k] * r[h].d[k] : times_plus(r[h].d[k], r[h].d[k], r[h].u);
+        r[h].u = k == 0 ? r[h].d[k] * r[h].d[k] : r[h].d[k] * r[h].d[k] + r[h].u;
       }
       if constexpr (Some) r[h].u = where(counts[h], r[h].u, 1);
       w[h] = L::weighs ? load<Part>(here + 3 * stride) : all<Part>(1);
@@ -313,7 +313,7 @@ HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t 
       Pair pair = C::of(law, r[h].u, w[h], L::of(law, h == 0 ? s.first : s.second, w[h]), L::weighs);
       if constexpr (Some) pair = {where(counts[h], pair.c, 0), where(counts[h], pair.phi, 0)};
       for (int k = 0; k < Space; ++k) {
-        sums.force[k].v[n] = times_plus(pair.c, r[h].d[k], Part{{sums.force[k].v[n]}}).v[0];
+        sums.force[k].v[n] = (pair.c * r[h].d[k] + Part{{sums.force[k].v[n]}}).v[0];
       }
       if constexpr (Energy) sums.energy.v[n] = sums.energy.v[n] + pair.phi.v[0];
     });

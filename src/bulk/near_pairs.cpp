@@ -21,7 +21,7 @@ void NearPairs::find(ThreadTeam* team) {
   }
   const double* const q = positions_.data();
   if (neighbours_->place(q, team) && !reach_.rebuild_every_time) return;
-  neighbours_->make(q, bulk::widest_exact().near[reach_.space - 2], team);
+  neighbours_->make(q, bulk::widest().near[reach_.space - 2], team);
   take_rows();
   ++lists_;
 }

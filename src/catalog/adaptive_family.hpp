@@ -66,7 +66,6 @@ inline MethodFamily adaptive_family(const std::string& name, int rank, const Bou
           .options = declarations_of(options),
           .rank = rank,
           .not_on_lattice = name + " is no bijection of the lattice, so nothing would come back exactly",
-          .not_fast = "the fast kernel is for steps of fixed length that are recorded",
           .completed = with_tolerance_of};
 }
 

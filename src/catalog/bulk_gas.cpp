@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/forwarding_functions.hpp"
 #include "hamflow/run/gas.hpp"
@@ -39,26 +38,7 @@ class BulkGas final : public ForwardingFunctions<double> {
   BulkForces bulk_;
 };
 
-/// Whether in_bulk (gas_entry.cpp) gives a run to the engine.
-bool is_in_bulk(const Request& request) {
-  if (request.problem != GasKeys::problem) return false;
-  if (request.arithmetic != "double" && request.arithmetic != "compensated") return false;
-  const auto pair = request.variant.find(GasKeys::pair);
-  if (pair != request.variant.end() && pair->second == GasKeys::typed) return false;
-  const auto dimension = request.parameters.find(GasKeys::dimension);
-  const std::size_t space = dimension != request.parameters.end() && dimension->second == "3" ? 3 : 2;
-  return request.start.q.size() > space * most_recorded_particles;
-}
-
 }  // namespace
-
-std::string_view fast_instruction_set(const Request& request, std::string_view widest) {
-  return widest == "avx2" && !is_in_bulk(request) ? "x86-64" : widest;
-}
-std::string_view fast_instruction_set(const Request& request) {
-  if (fast_kernel_available()) return fast_instruction_set(request, "avx512");
-  return fast_instruction_set(request, BulkForces::has_fast_kernel() ? "avx2" : "x86-64");
-}
 
 std::optional<BulkPairSystem> bulk_pair_system(const Gas<double>& gas, double skin) {
   const auto& model = gas.model();
@@ -100,10 +80,10 @@ std::optional<BulkPairSystem> bulk_pair_system(const Gas<double>& gas, double sk
 }
 
 ErasedFunctions<double> with_bulk_forces(ErasedFunctions<double> functions, const Gas<double>& gas, double skin,
-                                         BulkKernel kernel, std::size_t threads) {
+                                         std::size_t threads) {
   const auto system = bulk_pair_system(gas, skin);
   if (!system || gas.particles() <= most_recorded_particles) return functions;
-  const BulkForces bulk(*system, kernel);
+  const BulkForces bulk(*system);
   bulk.use_threads(threads);
   functions.plain = std::make_shared<const BulkGas>(std::move(functions.plain), gas, bulk);
   return functions;

@@ -14,6 +14,6 @@ std::optional<BulkPairSystem> bulk_pair_system(const Gas<double>& gas, double sk
 /// The functions of a gas with those of the engine, where it knows the pairs and they are many.
 /// @param threads that compute them; they change no bit
 ErasedFunctions<double> with_bulk_forces(ErasedFunctions<double> functions, const Gas<double>& gas, double skin,
-                                         BulkKernel kernel, std::size_t threads);
+                                         std::size_t threads);
 
 }  // namespace hamflow

@@ -9,7 +9,6 @@
 #include "gas_entry.hpp"
 #include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/make_simulation.hpp"
@@ -145,28 +144,6 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
   return text + "allowed here: " + all;
 }
 
-std::string refused_fast_kernel(const Request& request) {
-  if (request.arithmetic == "lattice") return "on the lattice forces are exact; allowed exact";
-  const std::string& not_fast = find_method(request.method.name).family->not_fast;
-  if (!not_fast.empty()) return not_fast + "; allowed exact";
-  if (step_control_of(request.method).reversible) {
-    return "the fast kernel is for equal steps, which are recorded; allowed exact";
-  }
-  if (digits_beyond_double(request.arithmetic) > 0) {
-    return "the fast kernel is for double and compensated; allowed exact";
-  }
-  return {};
-}
-
-std::string refused_fast_step(const Request& request) {
-  try {
-    if (request.kernel == "fast") (void)make_simulation(request);
-  } catch (const TooLongToEstimate& error) {
-    return error.what();
-  }
-  return {};
-}
-
 std::string refused_threads(const Request& request, const ProblemEntry& problem) {
   if (request.threads == 1) return {};
   if (request.threads < 1 || request.threads > most_threads) {
@@ -197,8 +174,7 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
 
 /// Whether straight code is faster than the compiled loop over bodies or particles. While it fits into the first cache
 /// of instructions it is; longer code takes a fifth of a nanosecond an operation, which roots and quotients of a loop
-/// exceed, but not sums and products that are vectorised (fput). Measured: docs/design.md, Recorded steps. The loops
-/// know no estimates.
+/// exceed, but not sums and products that are vectorised (fput). Measured: docs/design.md, Recorded steps.
 static bool beats_loops(const Program& program) {
   constexpr std::size_t in_first_cache = 3500, share = 40;
   const auto count = [&](auto... kinds) {
@@ -206,7 +182,7 @@ static bool beats_loops(const Program& program) {
         std::count_if(program.operations.begin(), program.operations.end(),
                       [=](const Program::Operation& operation) { return ((operation.instruction == kinds) || ...); }));
   };
-  return program.operations.size() <= in_first_cache || count(Instruction::inverse_root_estimate) > 0 ||
+  return program.operations.size() <= in_first_cache ||
          share * count(Instruction::divide, Instruction::square_root) >= program.operations.size();
 }
 
@@ -224,10 +200,6 @@ std::unique_ptr<Simulation> make_simulation_of(Request request) {
   }
   const std::string not_here = refusal(request.method, problem);
   if (!not_here.empty()) throw Error(not_here);
-  if (request.kernel != "exact") {
-    const std::string no_kernel = request.kernel == "fast" ? refused_fast_kernel(request) : "allowed exact, fast";
-    if (!no_kernel.empty()) throw Error("kernel '" + request.kernel + "': " + no_kernel);
-  }
   const std::string one_thread = refused_threads(request, problem);
   if (!one_thread.empty()) throw Error("threads = " + std::to_string(request.threads) + ": " + one_thread);
   Request full = std::move(request);
@@ -242,17 +214,12 @@ std::unique_ptr<Simulation> make_simulation_of(Request request) {
     auto simulation = problem.simulate_erased(full);
     auto* const recorded = dynamic_cast<RecordedMember*>(simulation.get());
     const auto step = recorded == nullptr ? nullptr : recorded->recorded_step();
-    if (step ? beats_loops(step->program) : full.kernel == "fast" && !full.record) return simulation;
+    if (step && beats_loops(step->program)) return simulation;
     auto typed = problem.simulate(full);
     return typed ? std::move(typed) : std::move(simulation);
   }
   if (auto simulation = problem.simulate(full)) return simulation;
-  auto simulation = problem.simulate_erased(full);
-  // Throws where a fast step cannot be.
-  if (full.kernel == "fast" && dynamic_cast<RecordedMember*>(simulation.get()) != nullptr) {
-    (void)dynamic_cast<RecordedMember&>(*simulation).recorded_step();
-  }
-  return simulation;
+  return problem.simulate_erased(full);
 }
 
 }  // namespace hamflow

@@ -52,8 +52,7 @@ struct ErasedRun {
   Vector<R, dynamic> q;
   Vector<R, dynamic> p;
   R h;
-  std::shared_ptr<const StepWalls> walls{};            // that a recorded step has to stay within
-  std::shared_ptr<const Functions<Trace<R>>> exact{};  // where functions are estimates, those that they estimate
+  std::shared_ptr<const StepWalls> walls{};  // that a recorded step has to stay within
 };
 /// Of the request the method and the arithmetic count. Defined for each number type in a file of its own.
 template <class R>

@@ -4,7 +4,6 @@
 
 #include "asking_functions.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
-#include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/iterated_simulation.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
@@ -28,25 +27,15 @@ struct TracedArithmetic<Compensated<double>> {
 };
 
 /// Records steps of a method on the traced functions of a problem.
-/// @param estimated functions by estimates: their steps have to be recorded
 template <Capability c, class A, class M>
-StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool estimated) {
+StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe) {
   using Traced = AnyProblem<Trace<double>, c>;
   using TA = typename TracedArithmetic<A>::type;
-  return [problem = Traced(run.functions.size, run.functions.trace), recipe, estimated, walls = run.walls](
+  return [problem = Traced(run.functions.size, run.functions.trace), recipe, walls = run.walls](
              const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
              bool watch, RecordedAt at, AtWalls at_walls) {
-    const auto recorded = [&](double length) {
-      return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, length, time, watch, at, nullptr,
-                             walls.get(), at_walls);
-    };
-    auto step = recorded(h);
-    // A step that leaves the finite numbers is recorded as little as one that is too long.
-    if (estimated && !step && time.position == 0 && !recorded(h * 0x1p-30)) {
-      throw TooLongToEstimate("found a step of more than " + std::to_string(most_recorded_operations) +
-                              " operations; allowed fewer bodies or a method of fewer stages, or exact");
-    }
-    return step;
+    return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch, at, nullptr,
+                           walls.get(), at_walls);
   };
 }
 
@@ -68,10 +57,9 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
     if (!run.walls || run.walls->rule != WallRule::event) return {};
     if (run.functions.plain->has_clock()) return {};  // the time at which the step began is no constant
     const std::size_t n = run.functions.size;
-    return [problem = Traced(n, run.functions.trace), exact = Traced(n, run.exact ? run.exact : run.functions.trace),
-            recipe](const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h) {
-      return record_part<TA>(problem, exact, recipe.template bind<Traced, TA>(problem), q, p, h,
-                             most_recorded_operations);
+    return [problem = Traced(n, run.functions.trace), recipe](const Vector<double, dynamic>& q,
+                                                              const Vector<double, dynamic>& p, double h) {
+      return record_part<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, most_recorded_operations);
     };
   }
 }
@@ -98,36 +86,23 @@ StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, 
   }
 }
 
-/// A run with the functions of kernel = "fast", where a request asks for it and they are others.
-inline std::optional<ErasedRun<double>> with_estimates(const ErasedRun<double>& run, const Request& request) {
-  if (request.kernel != "fast" || !fast_kernel_available()) return std::nullopt;
-  const FastFunctions fast = fast_functions(run.functions.plain, run.functions.trace);
-  if (!has_estimates(fast, run.q, run.p)) return std::nullopt;
-  ErasedRun<double> other = run;
-  other.functions.plain = fast.plain;
-  other.functions.trace = fast.trace;
-  other.exact = run.functions.trace;
-  return other;
-}
-
 /// The half of simulate_erased<double> that is made of recorded steps.
-std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request, bool estimated);
+std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request);
 /// Nothing is recorded in other numbers; clang++ asks for it wherever the call stands.
 template <class R>
-std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<R>&, const Request&, bool) {
+std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<R>&, const Request&) {
   return nullptr;
 }
 
 /// @tparam recorded in double: the methods whose steps are recorded, or all others and the lattice
 template <class R, bool recorded>
-std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request& request,
-                                          [[maybe_unused]] bool estimated) {
+std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request& request) {
   using Result = std::unique_ptr<Simulation>;
   const auto simulate = [&]<Capability c, class M>(const M& recipe) -> Result {
     const auto build = [&]<class A>(A arithmetic) -> Result {
       constexpr bool is_of_recorded = std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo;
       if constexpr (is_of_recorded && !recorded) {
-        return simulate_recorded(run, request, estimated);
+        return simulate_recorded(run, request);
       } else if constexpr (is_of_recorded != recorded) {
         return nullptr;
       } else {
@@ -145,7 +120,7 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
               !request.record                              ? StepRecorder()
               : step_control_of(request.method).reversible ? varying_recorder_of<c, A>(run, recipe, request)
-                                                           : recorder_of<c, A>(run, recipe, estimated),
+                                                           : recorder_of<c, A>(run, recipe),
               request.record && !step_control_of(request.method).reversible ? part_recorder_of<c, A>(run, recipe)
                                                                             : PartRecorder(),
               request.watch));
@@ -188,10 +163,7 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
 
 template <class R>
 std::unique_ptr<Simulation> simulate_without_walls(const ErasedRun<R>& run, const Request& request) {
-  if constexpr (std::is_same_v<R, double>) {
-    if (const auto fast = with_estimates(run, request)) return simulate_half<double, false>(*fast, request, true);
-  }
-  return simulate_half<R, false>(run, request, false);
+  return simulate_half<R, false>(run, request);
 }
 
 template <class R>

@@ -1,7 +1,7 @@
 #include "erased_simulation.hpp"
 
 namespace hamflow {
-std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request, bool estimated) {
-  return simulate_half<double, true>(run, request, estimated);
+std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request) {
+  return simulate_half<double, true>(run, request);
 }
 }  // namespace hamflow

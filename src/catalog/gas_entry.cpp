@@ -264,10 +264,10 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
 /// The texts of a start that has been read are not kept: those of a million particles take as much memory as their
 /// lists of neighbours. (A binding of every member: one more of them does not compile.)
 Request without_start(const Request& request) {
-  const auto& [problem, variant, parameters, start, method, dt, arithmetic, kernel, position_unit, momentum_unit,
-               threads, watch, record] = request;
-  return {problem, variant,       parameters,    {},      method, dt,    arithmetic,
-          kernel,  position_unit, momentum_unit, threads, watch,  record};
+  const auto& [problem, variant, parameters, start, method, dt, arithmetic, position_unit, momentum_unit, threads,
+               watch, record] = request;
+  return {problem,    variant,       parameters,    {},      method, dt,
+          arithmetic, position_unit, momentum_unit, threads, watch,  record};
 }
 
 /// With pairs by the engine, where it takes them: steps are then not recorded, whose sums would have another order.
@@ -275,11 +275,8 @@ ErasedFunctions<double> in_bulk(ErasedFunctions<double> functions, const Gas<dou
                                 const Parameters<double>& given, Request& request) {
   const double skin = given.has(Keys::skin) ? given[Keys::skin] : usual_skin;
   if (gas.particles() <= most_recorded_particles || !bulk_pair_system(gas, skin)) return functions;
-  const bool fast = request.kernel == "fast" && BulkForces::has_fast_kernel();
   request.record = false;
-  request.kernel = "exact";  // nothing else has estimates
-  return with_bulk_forces(std::move(functions), gas, skin, fast ? BulkKernel::fast : BulkKernel::exact,
-                          static_cast<std::size_t>(request.threads));
+  return with_bulk_forces(std::move(functions), gas, skin, static_cast<std::size_t>(request.threads));
 }
 
 StepInDouble step_in_double(const GasShape& shape, Request request);

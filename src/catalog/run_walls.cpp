@@ -74,8 +74,6 @@ Sign sign_of(const TapeNode& node, const std::vector<double>& constants, const s
     case Operation::larger:
     case Operation::arctangent2:
     case Operation::power_of_two:
-    case Operation::inverse_cube:
-    case Operation::inverse_root:
     case Operation::choose: {
       const bool third = node.operation != Operation::choose || at(node.c) == Sign::stays;
       return third && at(node.a) == Sign::stays && at(node.b) == Sign::stays ? Sign::stays : Sign::unknown;

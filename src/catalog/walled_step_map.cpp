@@ -53,7 +53,6 @@ class WalledStepMap final : public StepMap {
         free_(make(walls.rule == WallRule::mirror ? problem_behind(problem, request, walls) : problem, request.method)),
         size_(problem.in_double.size) {
     request_.arithmetic = "double";
-    request_.kernel = "exact";
     request_.threads = 1;
     request_.record = false;
     request_.watch = false;

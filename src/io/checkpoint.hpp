@@ -26,7 +26,6 @@ struct ObserverRecord {
 struct Checkpoint {
   std::string identity;           // of the run: the same in its run.h5
   std::string version;            // of hamflow
-  std::string instruction_set;    // of kernel = "fast"
   std::vector<std::string> keys;  // the scenario's settings
   std::vector<std::string> values;
   std::int64_t steps = 0;  // to be taken
@@ -45,8 +44,8 @@ struct Checkpoint {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(identity, version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, wall_rows,
-       event_rows, csv_bytes, csv_hash, summary_hash, wall_seconds, simulation, observers);
+    ar(identity, version, keys, values, steps, step, record_every, rows, section_rows, wall_rows, event_rows, csv_bytes,
+       csv_hash, summary_hash, wall_seconds, simulation, observers);
   }
 };
 

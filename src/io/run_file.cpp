@@ -130,7 +130,6 @@ void write_attributes(hid_t file, const RunDescription& run) {
   write_attribute(file, "problem", run.problem);
   write_attribute(file, "method", run.method);
   write_attribute(file, "arithmetic", run.arithmetic);
-  write_attribute(file, "kernel", run.kernel);
   write_attribute(file, "created", run.created.empty() ? now_utc() : run.created);
   write_attribute(file, "dt", run.dt);
   write_attribute(file, "dt_text", run.dt_text);

@@ -59,7 +59,6 @@ struct RunDescription {
   std::string problem;
   std::string method;
   std::string arithmetic;
-  std::string kernel;
   std::size_t dimension = 0;
   std::vector<InvariantColumn> invariants;
   std::vector<InvariantColumn> observables{};  // expressions of the user, whose text is the meaning

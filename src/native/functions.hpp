@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/numerics/program.hpp"
 
 namespace hamflow::native {
@@ -31,8 +30,6 @@ constexpr int arity(Instruction instruction) {
     case Instruction::power:
       return 2;
     case Instruction::choose:
-    case Instruction::fused_add:
-    case Instruction::fused_subtract:
       return 3;
     default:
       return 1;
@@ -79,12 +76,6 @@ inline double applied(Instruction instruction, double a, double b, double c = 0)
       return std::sqrt(a);
     case Instruction::choose:
       return a > 0 ? b : c;
-    case Instruction::inverse_root_estimate:
-      return detail::has_estimate() ? detail::inverse_root_estimate(a) : 1 / std::sqrt(a);
-    case Instruction::fused_add:
-      return std::fma(a, b, c);
-    case Instruction::fused_subtract:
-      return std::fma(-a, b, c);
     case Instruction::of_lane:
       return a;  // the only one
     default:

@@ -135,13 +135,6 @@ class LaneAssembler final : public LoopAssembler {
         return with(line.b, [&](const auto& b) { a_.vdivpd(to, a, b); });
       case Instruction::larger:  // the second where they are equal or one is NaN
         return with(line.b, [&](const auto& b) { a_.vmaxpd(to, a, b); });
-      case Instruction::fused_add:
-        return with(line.b, [&](const auto& b) { a_.vfmadd231pd(to, a, b); });
-      case Instruction::fused_subtract:
-        return with(line.b, [&](const auto& b) { a_.vfnmadd231pd(to, a, b); });
-      case Instruction::inverse_root_estimate:
-        a_.vrsqrt14pd(to, a);
-        return;
       case Instruction::negate:
         a_.vxorpd(to, a, in_table(0));
         return;

@@ -63,8 +63,7 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
                                 " registers to a number; allowed 1 to 4");
   native::LaneProgram ready = native::lane_program(program, differs);
   std::unique_ptr<const native::Function> function;
-  if (const unsigned available = native::lane_registers(lanes);
-      available > 0 && native::has_instructions(program) && native::is_asked()) {
+  if (const unsigned available = native::lane_registers(lanes); available > 0 && native::is_asked()) {
     const Program step = native::with_both(native::interleaved(ready, registers, native::run_of_one));
     const unsigned masks = lanes == LaneSet::avx2 && native::needs_masks(step) ? 1 : 0;
     function = native::assembled_lanes(native::placed(step, available - masks, steps), step.constants, ready.uniform,

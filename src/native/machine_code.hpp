@@ -24,9 +24,6 @@ class Function {
 /// Registers of this processor that a scalar program can use; 0 where there is no AVX.
 unsigned scalar_registers();
 
-/// Whether this processor has all instructions of the program: estimates and fused operations come with 32 registers.
-bool has_instructions(const Program& program);
-
 /// Whether it chooses between numbers or ends by itself: lanes of AVX2 then have one register fewer, for the mask.
 bool needs_masks(const Program& program);
 

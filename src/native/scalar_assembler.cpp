@@ -86,13 +86,6 @@ class ScalarAssembler final : public LoopAssembler {
         return with(line.b, [&](const auto& b) { a_.vdivsd(to, a, b); });
       case Instruction::larger:  // the second where they are equal or one is NaN
         return with(line.b, [&](const auto& b) { a_.vmaxsd(to, a, b); });
-      case Instruction::fused_add:
-        return with(line.b, [&](const auto& b) { a_.vfmadd231sd(to, a, b); });
-      case Instruction::fused_subtract:
-        return with(line.b, [&](const auto& b) { a_.vfnmadd231sd(to, a, b); });
-      case Instruction::inverse_root_estimate:
-        a_.vrsqrt14sd(to, a, a);
-        return;
       case Instruction::negate:
         a_.vxorpd(to, a, x86::ptr(table_, sign_mask));
         return;
@@ -179,14 +172,6 @@ unsigned scalar_registers() {
   const auto& features = CpuInfo::host().features().x86();
   if (!Environment::host().isFamilyX86() || !Environment::host().is64Bit() || !features.hasAVX()) return 0;
   return features.hasAVX512_F() && features.hasAVX512_VL() && features.hasAVX512_DQ() && features.hasFMA() ? 32 : 16;
-}
-
-bool has_instructions(const Program& program) {
-  return scalar_registers() == 32 ||
-         std::none_of(program.operations.begin(), program.operations.end(), [](const Program::Operation& operation) {
-           return operation.instruction >= Instruction::inverse_root_estimate &&
-                  operation.instruction < Instruction::exponential;
-         });
 }
 
 bool needs_masks(const Program& program) {

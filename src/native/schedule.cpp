@@ -14,9 +14,6 @@ int latency(Instruction instruction) {
     case Instruction::add:
     case Instruction::subtract:
     case Instruction::multiply:
-    case Instruction::inverse_root_estimate:
-    case Instruction::fused_add:
-    case Instruction::fused_subtract:
       return 4;
     case Instruction::negate:
     case Instruction::absolute:

@@ -29,8 +29,7 @@ class Translation {
   static bool has_second_operand(Operation operation) {
     return operation == Operation::add || operation == Operation::subtract || operation == Operation::multiply ||
            operation == Operation::divide || operation == Operation::larger || operation == Operation::arctangent2 ||
-           operation == Operation::power_of_two || operation == Operation::inverse_cube ||
-           operation == Operation::inverse_root || operation == Operation::choose;
+           operation == Operation::power_of_two || operation == Operation::choose;
   }
   void mark_needed() {
     needed_.assign(tape_.nodes.size(), false);
@@ -127,35 +126,8 @@ class Translation {
         return of_two(Instruction::arctangent2);
       case Operation::power_of_two:
         return of_two(Instruction::power);
-      case Operation::inverse_cube:
-      case Operation::inverse_root:
-        place_[i] = power(at(n.a), at(n.b), n.operation == Operation::inverse_cube);
-        return;
     }
     throw std::logic_error("hamflow: an operation of a tape is not known to programs");
-  }
-
-  Operand add(Instruction instruction, Operand a, Operand b = {}, Operand c = {}) {
-    program_.operations.push_back({instruction, a, b, c});
-    return {Operand::Kind::result, static_cast<std::uint32_t>(program_.operations.size() - 1)};
-  }
-  /// k/(u sqrt(u)) or k/sqrt(u): the operations of inverse_cube and inverse_root (core/inverse_cube.hpp), in their
-  /// order.
-  Operand power(Operand k, Operand u, bool is_cube) {
-    if (!fast_kernel_available()) {
-      const Operand root = add(Instruction::square_root, u);
-      return add(Instruction::divide, k, is_cube ? add(Instruction::multiply, u, root) : root);
-    }
-    const Operand y = add(Instruction::inverse_root_estimate, u);
-    const Operand yy = add(Instruction::multiply, y, y);
-    const Operand e = add(Instruction::fused_subtract, u, yy, constant(1.0));
-    const Operand low =
-        add(Instruction::fused_add, e, constant(is_cube ? 15.0 / 8 : 3.0 / 8), constant(is_cube ? 3.0 / 2 : 1.0 / 2));
-    const Operand high = add(Instruction::fused_add, e, constant(is_cube ? 315.0 / 128 : 35.0 / 128),
-                             constant(is_cube ? 35.0 / 16 : 5.0 / 16));
-    const Operand sum = add(Instruction::fused_add, add(Instruction::multiply, e, e), high, low);
-    const Operand leading = add(Instruction::multiply, k, is_cube ? add(Instruction::multiply, y, yy) : y);
-    return add(Instruction::fused_add, add(Instruction::multiply, leading, e), sum, leading);
   }
 
   using Guard = Tape<double>::Guard;

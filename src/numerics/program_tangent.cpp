@@ -172,9 +172,6 @@ class Differentiation {
         return true;
       case I::absolute:
       case I::larger:
-      case I::inverse_root_estimate:
-      case I::fused_add:
-      case I::fused_subtract:
       case I::sine_of_both:
       case I::cosine_of_both:
       case I::choose:  // above

@@ -41,6 +41,11 @@ std::string suggested_problem(const std::string& name) {
   return "; did you mean " + problems_by_choice().at(choice) + "?";
 }
 
+std::string removed_key(const std::string& path) {
+  if (path == "run.kernel") return "delete it: every run has the bits that kernel = \"exact\" gave";
+  return {};
+}
+
 std::string key_elsewhere(const std::string& path, const ProblemEntry* problem, const std::string& method) {
   const std::size_t dot = path.rfind('.');
   const std::string name = path.substr(dot == std::string::npos ? 0 : dot + 1);

@@ -116,12 +116,6 @@ const RunKeys& run_keys() {
                   .unset = "as its keys say",
                   .condition = "with arithmetic = \"lattice\"",
                   .keys = {lattice_keys().position, lattice_keys().momentum}},
-      .kernel = {.name = "kernel",
-                 .default_value = "exact",
-                 .meaning = "fast: 1/sqrt(u) and its cube by estimate and series (AVX-512), other bits; for few "
-                            "bodies, many are slower",
-                 .type = OptionType::word,
-                 .words = {"exact", "fast"}},
       .threads = {.name = "threads",
                   .default_value = "1",
                   .meaning = "for the forces of one step; they change no bit",
@@ -212,7 +206,7 @@ const std::vector<DeclaredTable>& declared_tables() {
     return std::vector<DeclaredTable>{
         {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
-          r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+          r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.lattice, r.threads}},
         {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;

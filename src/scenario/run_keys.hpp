@@ -24,7 +24,7 @@ struct EventKeys {
   OptionInfo name, expression, direction, action;
 };
 struct RunKeys {
-  OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, kernel, threads, lyapunov,
+  OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, threads, lyapunov,
       eigenvalues, section, events, record_events, map, certificate;
 };
 struct OutputKeys {

@@ -108,7 +108,7 @@ class ScenarioReader {
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
   void read_map(TomlTable& table);
-  void read_kernel(TomlTable& table);
+  void read_threads(TomlTable& table);
   void read_length(TomlTable& table);
   bool refuse_time(TomlTable& table, const std::string& key, const std::string& allowed);
   void read_measures(TomlTable& table);

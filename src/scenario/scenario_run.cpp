@@ -35,7 +35,7 @@ void ScenarioReader::read_run(TomlTable& table) {
   if (const auto every = table.whole(keys.checkpoint_every)) scenario_.checkpoint_every = *every;
   read_arithmetic(table);
   read_measures(table);
-  read_kernel(table);
+  read_threads(table);
   read_lattice(table);
   table.finish(scenario_.problem.get(), scenario_.request.method.name);
 }
@@ -54,20 +54,8 @@ void ScenarioReader::read_map(TomlTable& table) {
   }
 }
 
-void ScenarioReader::read_kernel(TomlTable& table) {
+void ScenarioReader::read_threads(TomlTable& table) {
   const RunKeys& keys = run_keys();
-  const bool known = scenario_.problem != nullptr && has_method();
-  if (const auto kernel = table.text(keys.kernel)) {
-    scenario_.request.kernel = *kernel;
-    if (*kernel != keys.kernel.default_value && known) {
-      const std::string why_not = refused_fast_kernel(scenario_.request);
-      if (!why_not.empty()) table.complain(keys.kernel.name, table.found(keys.kernel.name) + "; " + why_not);
-      if (complaints_.empty()) {
-        const std::string too_long = refused_fast_step(scenario_.request);
-        if (!too_long.empty()) table.complain(keys.kernel.name, too_long);
-      }
-    }
-  }
   if (const auto threads = table.whole(keys.threads)) {
     scenario_.request.threads = static_cast<int>(*threads);
     if (scenario_.problem != nullptr) {

@@ -415,9 +415,6 @@ class TemplateWriter {
         continue;
       } else if (key.name == keys.lyapunov.name || key.name == keys.eigenvalues.name) {
         if (!problem_.constraint_form.empty()) continue;  // steps on a manifold are not differentiated
-      } else if (key.name == keys.kernel.name) {
-        if (!find_method(method_.name).family->not_fast.empty()) continue;
-        set = true;
       } else if (key.name == keys.lattice.name && !on_lattice) {
         continue;
       } else if (key.name == keys.threads.name && !(on_lattice && problem_.has_pairwise_forces)) {

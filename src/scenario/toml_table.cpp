@@ -345,6 +345,10 @@ void TomlTable::finish(const ProblemEntry* problem, const std::string& method) {
     // A value that was set from outside stands nowhere in the file, though its key may.
     const bool in_file = key.source().begin.line > 0 && !hamflow::is_set(node);
     const toml::source_region& where = in_file ? key.source() : node.source();
+    if (const std::string advice = removed_key(full(name)); !advice.empty()) {
+      complain_at(where, name, "found a key that was removed; " + advice);
+      continue;
+    }
     const std::string near = suggestion(name, known_);
     const std::string meant = near.empty() ? key_elsewhere(full(name), problem, method) : near;
     complain_at(where, name, "found an unknown key; allowed " + joined(known_) + meant);

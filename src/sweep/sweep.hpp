@@ -128,9 +128,8 @@ class Sweep {
   std::vector<std::string> notes() const;
   /// What the numbers in the rows are called.
   const SweepNames& names() const { return names_; }
-  /// In which all members compute, and their kernels.
+  /// In which all members compute.
   const std::set<std::string>& arithmetics() const { return arithmetics_; }
-  const std::set<std::string>& kernels() const { return kernels_; }
   int threads() const { return threads_; }
   LaneSet lanes() const { return in_lanes_ > 0 ? options_.lanes : LaneSet::none; }
   std::size_t lane_count() const { return lane_count_; }
@@ -197,7 +196,6 @@ class Sweep {
   SweepOptions options_;
   SweepNames names_;
   std::set<std::string> arithmetics_;
-  std::set<std::string> kernels_;
   std::string raw_text_;
   std::string name_;
   std::vector<std::string> sets_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "csv_file.hpp"
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hdf5_alone.hpp"
 #include "hdf5_text.hpp"
@@ -70,10 +69,6 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "problem", request.problem);
   // What members do not have in common is a column of what was varied.
   if (sweep.arithmetics().size() <= 1) write_attribute(id, "arithmetic", request.arithmetic);
-  if (sweep.kernels().size() <= 1) write_attribute(id, "kernel", request.kernel);
-  if (sweep.kernels().contains("fast")) {
-    write_attribute(id, "instruction_set", std::string(name(fast_kernel_instruction_set())));
-  }
   write_text_dataset(id, "scenario", sweep.text());
   for (const Column& column : tables.members.columns()) write_column(id, column);
   for (const Column& column : tables.section.columns()) write_column(id, column);

@@ -16,7 +16,6 @@ namespace hamflow {
 /// Which sweep it is: what has to be the same for it to go on.
 struct SweepHead {
   std::string version;            // of hamflow
-  std::string instruction_set;    // of kernel = "fast"
   std::vector<std::string> keys;  // settings of the scenario that the members have in common
   std::vector<std::string> values;
   std::vector<std::string> varied;  // PATH=VALUES as they were typed
@@ -24,7 +23,7 @@ struct SweepHead {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(version, instruction_set, keys, values, varied, in_step);
+    ar(version, keys, values, varied, in_step);
   }
 };
 

@@ -189,7 +189,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   const Parameters<double> parameters(request.parameters);
   ParameterShape shape;
   MemberStart start{scenario.start_q, scenario.start_p, {}, evaluate_number<double>(request.dt)};
-  std::string key = request.problem + '\n' + request.method.name + '\n' + request.arithmetic + '\n' + request.kernel;
+  std::string key = request.problem + '\n' + request.method.name + '\n' + request.arithmetic;
   for (const auto& [option, value] : request.method.options) key += '\n' + option + '=' + value;
   for (const auto& [choice, value] : request.variant) key += '\n' + choice + '=' + value;
   for (const ParameterInfo& info : scenario.problem->info.parameters) {
@@ -214,7 +214,6 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   names_.add(member, names);
   if (!is_own(member)) return;
   arithmetics_.insert(request.arithmetic);
-  kernels_.insert(request.kernel);
   auto [at, is_new] = groups_.try_emplace(key);
   Group& group = at->second;
   if (is_new) {

@@ -147,7 +147,6 @@ class ReferenceRun::Impl {
       constants.emplace();
     }
     full.arithmetic = reference_arithmetic(request.arithmetic);
-    full.kernel = "exact";
     full.threads = 1;
     // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long. However long the run
     // is, a piece is no longer than 800 steps, since Taylor series are stopped only between pieces.

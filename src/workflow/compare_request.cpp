@@ -77,8 +77,6 @@ class RequestReader {
         if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
         Request one = scenario_.request;
         one.method = method;
-        if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
-        if (why_not.empty()) why_not = refused_fast_step(one);
         if (why_not.empty()) why_not = refused_walls(one);
         if (why_not.empty()) why_not = refused_by_size(one, scenario_.start_q.size());
         if (why_not.empty() && describe(method).varies_steps) {

@@ -211,8 +211,7 @@ class ConvertedRun::Impl {
       Scenario changed = scenario();
       changed.text = edited_scenario(changed.text, {{"method", "{ name = \"" + other + "\" }"},
                                                     {run_path(run_keys().arithmetic), {}},
-                                                    {run_path(run_keys().lattice), {}},
-                                                    {run_path(run_keys().kernel), {}}});
+                                                    {run_path(run_keys().lattice), {}}});
       text += converted_text(changed, to_, start);
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));

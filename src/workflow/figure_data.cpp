@@ -158,7 +158,6 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenar
     facts.emplace_back("method", describe(request.method).name);
   if (std::none_of(changes.begin(), changes.end(), sets_length)) facts.emplace_back("dt", request.dt);
   facts.emplace_back("arithmetic", request.arithmetic);
-  facts.emplace_back("kernel", request.kernel);
   for (const auto& [key, value] : request.parameters) facts.emplace_back(key, value);
   return facts;
 }
@@ -167,7 +166,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenar
 std::string fact_text(const std::pair<std::string, std::string>& fact) {
   static const std::set<std::string> plain{"problem", "method", "arithmetic", "potential", "coordinates", "model"};
   if (plain.contains(fact.first)) return fact.second;
-  return fact.first + (fact.first == "kernel" ? " " : " = ") + fact.second;
+  return fact.first + " = " + fact.second;
 }
 
 /// What stands in every title, where it does not differ.

@@ -62,7 +62,6 @@ class Orbit {
     const bool polar = static_cast<bool>(scenario.problem->to_reference);
     at_.arithmetic = "mp(" + std::to_string(digits) + ")";
     at_.method = {.name = "rk4"};
-    at_.kernel = "exact";
     at_.threads = 1;
     Frame start;
     make_simulation(at_)->look(start);

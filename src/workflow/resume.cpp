@@ -22,8 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr double checkpoint_seconds = 10;
 
-std::string instruction_set(const Scenario& scenario) { return std::string(fast_instruction_set(scenario.request)); }
-
 std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
 std::string contents_key() { return "problem." + gas_options().file.name + ": contents"; }
@@ -109,11 +107,6 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     complain("hamflow", "found version " HAMFLOW_VERSION "; allowed with " + option_name("resume") + " version " +
                             checkpoint.version + ", with which the run began");
   }
-  if (scenario.request.kernel == "fast" && checkpoint.instruction_set != instruction_set(scenario)) {
-    complain(run_path(run_keys().kernel), "found \"fast\" with the instruction set " + instruction_set(scenario) +
-                                              "; allowed with " + option_name("resume") + " the instruction set " +
-                                              checkpoint.instruction_set + ", with which the run began");
-  }
   return all;
 }
 
@@ -121,7 +114,6 @@ Checkpoint beginning_of(const Scenario& scenario, const std::string& identity) {
   Checkpoint checkpoint;
   checkpoint.identity = identity;
   checkpoint.version = HAMFLOW_VERSION;
-  checkpoint.instruction_set = instruction_set(scenario);
   for (const auto& [key, setting] : settings_of(scenario)) {
     checkpoint.keys.push_back(key);
     checkpoint.values.push_back(setting.text);
@@ -173,7 +165,7 @@ void check_summary(const std::string& own, const fs::path& folder) {
   const auto found = read_json_by_keys(*text);
   if (!found.is_object()) refuse("it is no JSON object");
   const auto expected = read_json_by_keys(own);
-  for (const char* key : {"problem", "method", "arithmetic", "kernel", "parameters", "dt"}) {
+  for (const char* key : {"problem", "method", "arithmetic", "parameters", "dt"}) {
     if (found.contains(key) && found[key] != expected[key]) refuse(std::string(key) + " differs");
   }
   if (!found.contains("problem") && !found.contains("method")) refuse("it names no problem and no method");

@@ -147,7 +147,6 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .problem = request.problem,
           .method = method.name,
           .arithmetic = request.arithmetic,
-          .kernel = request.kernel,
           .dimension = scenario.start_q.size(),
           .invariants = invariant_columns(scenario),
           .observables = observable_columns(scenario),

@@ -414,8 +414,6 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.problem = request.problem;
   s.method = method.name;
   s.arithmetic = request.arithmetic;
-  s.kernel = request.kernel;
-  if (request.kernel == "fast") s.instruction_set = fast_instruction_set(request);
   if (request.arithmetic == "lattice") s.lattice = {request.position_unit, request.momentum_unit};
   s.parameters = parameters_of(scenario);
   s.dt = scenario.dt;

@@ -135,8 +135,7 @@ void fields(Ar& ar, SessionChange& x) {
 
 template <class Ar>
 void fields(Ar& ar, Summary& x) {
-  ar("status", x.status, "problem", x.problem, "method", x.method, "arithmetic", x.arithmetic, "kernel", x.kernel);
-  ar.if_any("instruction_set", x.instruction_set);
+  ar("status", x.status, "problem", x.problem, "method", x.method, "arithmetic", x.arithmetic);
   ar.if_any("lattice", x.lattice);
   ar("parameters", x.parameters, "dt", x.dt, "steps", x.steps);
   ar.if_any("start", x.start);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/option_names.hpp"
 #include "resume.hpp"
 #include "run_description.hpp"
@@ -18,21 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* journal_name = "members.bin";
 
-/// What members have in common, and the kernel on whose instruction set bits of some of them depend.
-Scenario scenario_in_common(const Sweep& sweep) {
-  Scenario scenario = sweep.common();
-  if (sweep.kernels().contains("fast")) scenario.request.kernel = "fast";
-  return scenario;
-}
-
 /// What differs from the sweep that began.
 std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
   began.version = before.version;
-  began.instruction_set = before.instruction_set;
   began.keys = before.keys;
   began.values = before.values;
-  std::vector<Complaint> all = differences(scenario_in_common(sweep), began);
+  std::vector<Complaint> all = differences(sweep.common(), began);
   const auto complain = [&](const std::string& option, const std::string& found, const std::string& allowed) {
     all.push_back({"", 0, 0, option,
                    "found " + found + "; allowed with " + option_name("resume") + " " + allowed +
@@ -51,9 +42,8 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
 }  // namespace
 
 SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
-  const Checkpoint of_scenario = beginning_of(scenario_in_common(sweep), "");
+  const Checkpoint of_scenario = beginning_of(sweep.common(), "");
   return {.version = of_scenario.version,
-          .instruction_set = of_scenario.instruction_set,
           .keys = of_scenario.keys,
           .values = of_scenario.values,
           .varied = request.varied,

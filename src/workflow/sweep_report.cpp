@@ -161,7 +161,6 @@ SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted,
   const Request& common = sweep.common().request;
   s.problem = common_to_all(sweep, "problem.name", common.problem);
   s.arithmetic = common_to_all(sweep, run_path(run_keys().arithmetic), common.arithmetic);
-  s.kernel = common_to_all(sweep, run_path(run_keys().kernel), common.kernel);
   s.varied = varied_of(sweep);
   s.wall_seconds = seconds;
   s.member_steps_per_second = seconds > 0 ? static_cast<double>(steps) / seconds : 0.0;
@@ -234,8 +233,8 @@ void fields(Ar& ar, SweepRow& x) {
 
 std::string sweep_json(const SweepSummary& x, bool with_rows) {
   JsonWriter ar;
-  ar("status", x.status, "problem", x.problem, "arithmetic", x.arithmetic, "kernel", x.kernel, "members", x.members,
-     "done", x.done, "failed", x.failed, "unfinished", x.unfinished);
+  ar("status", x.status, "problem", x.problem, "arithmetic", x.arithmetic, "members", x.members, "done", x.done,
+     "failed", x.failed, "unfinished", x.unfinished);
   if (x.no_start > 0) ar("no_start", x.no_start);
   ar("varied", x.varied, "wall_seconds", x.wall_seconds, "member_steps_per_second", x.member_steps_per_second,
      "members_per_second", x.members_per_second, "instruction_set", x.instruction_set, "lanes", x.lanes,

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/section.hpp"

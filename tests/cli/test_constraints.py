@@ -174,7 +174,6 @@ steps = 100
             self.assertIn("with constraints; allowed in coordinates without any",
                           self.refused(self.pendulum(), "--set", f"run.{key}=true"))
         self.assertIn("lattice", self.refused(self.pendulum(), "--set", "run.arithmetic=lattice"))
-        self.assertIn("kernel", self.refused(self.pendulum(), "--set", "run.kernel=fast"))
         self.assertIn("inertias", self.refused(self.rods(), "--set", "problem.inertias=[1, 0]"))
         self.assertIn("no variant", self.refused(self.rods(), "--set", "problem.model=linear"))
 

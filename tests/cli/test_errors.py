@@ -122,7 +122,7 @@ record_every = true
                                              "run.lattice={position='2^-70'}"))
         self.assertIn("unknown key", self.complaint("method={name='stv4',quadrature=3}"))
         self.assertIn('or "auto"', self.complaint("method.quadrature=0"))
-        self.assertIn("allowed exact", self.complaint("run.kernel=fast"))
+        self.assertIn("run.kernel: found a key that was removed; delete it", self.complaint("run.kernel=fast"))
         self.assertIn("degree of freedom", self.complaint(
             "problem={name='pendulum',initial={q=[1],p=[0]}}", "output.figures=['orbit']"))
 

@@ -87,8 +87,8 @@ class FilesDocument(CommandCase):
         file = "kepler.run/run.h5"
         text = "{k: v.decode() for k, v in f.attrs.items() if hasattr(v, 'decode')}"
         found = self.looked_up(text, file)
-        self.assertEqual({k: found[k] for k in ("problem", "method", "arithmetic", "kernel", "dt_text")},
-                         {"problem": "central-force", "method": "cg(1,5)", "arithmetic": "double", "kernel": "exact",
+        self.assertEqual({k: found[k] for k in ("problem", "method", "arithmetic", "dt_text")},
+                         {"problem": "central-force", "method": "cg(1,5)", "arithmetic": "double",
                           "dt_text": "1/10"})
         self.assertEqual(self.looked_up("[float(f.attrs['dt']), f.attrs['masses'].tolist()]", file), [0.1, [2.0]])
         names = "[decode(f.attrs['coordinates']), decode(f.attrs['momenta']), decode(f['p'].attrs['columns'])]"

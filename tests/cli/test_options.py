@@ -158,7 +158,7 @@ class Options(CommandCase):
     def test_every_unknown_name_is_answered(self):
         for sets, meant in (
             (["run.stesp=3"], "steps"), (["output.format=['h5']"], "formats"), (["problem.mas=1"], "mass"),
-            (["method.quadratur=3"], "quadrature"), (["run.arithmetic=quadd"], "quad"), (["run.kernel=fst"], "fast"),
+            (["method.quadratur=3"], "quadrature"), (["run.arithmetic=quadd"], "quad"),
             (["output.figures=['orbits']"], "orbit"), (["output.formats=['h6']"], "h5"),
             (["problem.potential=keplr"], "kepler"), (["problem.name=central-forc"], "central-force"),
             (["problem.orbit.kind=elipse"], "ellipse"), (["method.name=stv"], "stv4"),

@@ -213,7 +213,6 @@ class OtherImplicit(CommandCase):
         for method in FAMILIES:
             chosen = f"method.name={method}"
             self.assertIn("no bijection of the lattice", self.refused("plane.toml", chosen, "run.arithmetic=lattice"))
-            self.assertIn("needs the exact force", self.refused("plane.toml", chosen, "run.kernel=fast"))
             self.assertIn("unknown key", self.refused("plane.toml", chosen, "method.quadrature=3"))
 
 

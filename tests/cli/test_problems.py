@@ -172,49 +172,6 @@ class Problems(CommandCase):
         self.assertLess(s["energy"]["max_error"], 1e-12)
         self.assertNotIn("diagnostics", self.run_text('name="pendulum"\ninitial={q=[1],p=[0]}'))
 
-    def test_fast_kernel(self):
-        kepler = 'name="central-force"\npotential="kepler"\norbit={kind="ellipse",r_per=1,r_aph=3}'
-        self.write("s.toml", f'[problem]\n{kepler}\n[method]\nname="stv4"\n[run]\ndt=0.01\nsteps=1000\n')
-        exact = self.summary("s.toml")
-        fast = self.summary("s.toml", "--set", "run.kernel=fast")
-        self.assertEqual((exact["kernel"], fast["kernel"]), ("exact", "fast"))
-        self.assertIn(fast["instruction_set"], ("avx512", "x86-64"))
-        for a, b in zip(exact["final"]["q"], fast["final"]["q"]):
-            self.assertAlmostEqual(a, b, delta=1e-10)
-
-    def test_fast_kernel_of_any_problem(self):
-        def finals(problem, method, dt=0.01):
-            self.write("s.toml", f'[problem]\n{problem}\n[method]\nname="{method}"\n[run]\ndt={dt}\nsteps=400\n')
-            return [self.summary("s.toml", "--set", f"run.kernel={kernel}") for kernel in ("exact", "fast")]
-
-        # Without an inverse square root, and without the instructions, fast is exact.
-        exact, fast = finals('name="harmonic"\ninitial={q=[1],p=[0]}', "rk4")
-        self.assertEqual(exact["final"], fast["final"])
-        bodies = 'name="n-body"\nmasses=[1,1,1]\ninitial={q=[1,0,0,1,-1,-1],p=[0,0.5,-0.5,0,0.5,-0.5]}\nsoftening=0.1'
-        dipole = ('name="formula"\ncoordinates=["x","y"]\nhamiltonian="(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2) + '
-                  '0.1*x/(x^2 + y^2)^1.5"\ninitial={q=[1,0],p=[0,1]}')
-        for problem in (bodies, dipole):
-            for method in ("stv4", "chin4a", "rk4"):
-                exact, fast = finals(problem, method)
-                self.assertLess(abs(fast["energy"]["final"] - exact["energy"]["final"]), 1e-11)
-                if fast["instruction_set"] == "avx512":
-                    self.assertNotEqual(exact["final"], fast["final"])
-                else:
-                    self.assertEqual(exact["final"], fast["final"])
-
-    def test_fast_kernel_of_too_many_bodies(self):
-        count = 40
-        q = [x for i in range(count) for x in (i, i * i % 7)]
-        problem = f'name="n-body"\nmasses={[1] * count}\ninitial={{q={q},p={[0] * 2 * count}}}'
-        self.write("s.toml", f'[problem]\n{problem}\n[method]\nname="kahan-li8"\n[run]\ndt=0.001\nsteps=3\n')
-        self.summary("s.toml")
-        self.write("o.toml", '[problem]\nname="harmonic"\ninitial={q=[1],p=[0]}\n[method]\nname="verlet"\n[run]\n'
-                             'dt=0.1\nsteps=1\nkernel="fast"\n')
-        if self.summary("o.toml")["instruction_set"] != "avx512":
-            self.skipTest("without the instructions fast is exact")
-        text = self.hamflow("run", "s.toml", "--set", "run.kernel=fast", "--out", "none", status=2).stderr
-        self.assertIn("run.kernel: found a step of more than", text)
-
     def test_starts_by_energy_where_v_eff_is_no_single_well(self):
         cf = 'name="central-force"\n'
         for problem, energy, radius in (

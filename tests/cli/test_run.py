@@ -27,7 +27,6 @@ class Run(CommandCase):
         self.assertEqual(s["problem"], "central-force")
         self.assertEqual(s["method"], "cg(1,5)")
         self.assertEqual(s["arithmetic"], "double")
-        self.assertEqual(s["kernel"], "exact")
         self.assertEqual(s["parameters"]["mass"], 2)
         self.assertEqual(s["steps"], 400)
         self.assertEqual(s["final"]["t"], 40)

@@ -134,7 +134,6 @@ class StepControl(CommandCase):
             (("--set", "run.record=[0, 1]"), ("run.record", "allowed record_every")),
             (("--set", "run.lyapunov=true"), ("run.lyapunov", "step_control = \"fixed\"")),
             (("--set", "run.eigenvalues=true"), ("run.eigenvalues", "not differentiated")),
-            (("--set", "run.kernel='fast'"), ("run.kernel", "equal steps")),
             (("--set", "run.threads=2"), ("run.threads", "allowed 1")),
             (("--set", "method.step_control='reversibel'"), ("did you mean reversible",)),
             (("--set", "method.monitor='distanse'"), ("did you mean distance",)),

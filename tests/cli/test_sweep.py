@@ -167,13 +167,6 @@ class Sweep(CommandCase):
                      "problem.initial.q[0]=0.8:1.2:18", "problem.initial.q[1]=-0.3:0.3:18"):
             self.check("k.toml", vary, members=(0, 2, -1))
 
-    def test_fast_kernel(self):
-        self.write("k.toml", KEPLER)
-        sweep = self.sweep("k.toml", "--vary", "problem.k=0.5:1.5:18", "--set", "run.kernel=fast")
-        for member in (0, 17):
-            row = sweep["rows"][member]
-            self.assert_same(row, self.single("k.toml", "run.kernel=fast", f"problem.k={row['problem.k']!r}"))
-
     def test_geometric_start(self):
         self.write("o.toml", KEPLER.replace("initial = { q = [1.0, 0.0], p = [0.0, 1.5] }",
                                             'orbit = { kind = "ellipse", r_per = 1.0, r_aph = 3.0 }'))

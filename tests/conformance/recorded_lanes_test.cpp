@@ -18,12 +18,9 @@ int compare_all(const std::string& arithmetic, std::initializer_list<std::string
       MemberFamily family(problem, 35);  // more than a block of any width, and no multiple of one
       family.request.method = {.name = method};
       family.request.arithmetic = arithmetic;
-      std::vector<std::pair<LaneSet, const char*>> choices{{widest_lanes(), "fast"}};
-      for (const LaneSet set : {LaneSet::generic, LaneSet::avx2, LaneSet::avx512}) choices.emplace_back(set, "exact");
-      for (const auto& [set, kernel] : choices) {
+      for (const LaneSet set : {LaneSet::generic, LaneSet::avx2, LaneSet::avx512}) {
         if (set > widest_lanes()) continue;
-        family.request.kernel = kernel;
-        SCOPED_TRACE(method + " on " + problem.info.name + " in " + std::string(name(set)) + ", " + kernel);
+        SCOPED_TRACE(method + " on " + problem.info.name + " in " + std::string(name(set)));
         const auto block = make_ensemble_block(family.request, set);
         EXPECT_NE(block, nullptr);
         if (block == nullptr) return compared;

@@ -21,7 +21,6 @@
 #include "hamflow/problems/n_body.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
-#include "hamflow/problems/support/fast_kernel.hpp"
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
@@ -54,13 +53,6 @@ const std::set<std::string> not_recorded{
     "avf",      "boris",         "cg",     "discrete-gradient", "dop853", "eg", "gauss", "implicit-midpoint",
     "itoh-abe", "lobatto-3a-3b", "rattle", "rattle4",           "taylor"};
 
-/// Tables differ in their coefficients, which have nothing to do with how a force is computed: of them, one for each
-/// shape of a step.
-bool differs_in_shape(const std::string& name) {
-  static const std::set<std::string> tables{"euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "ruth3", "sb3a-4"};
-  return !splitting_named(name) || tables.contains(name);
-}
-
 TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
   int cases = 0;
   int recorded = 0;
@@ -69,18 +61,12 @@ TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
     for (const MethodEntry& entry : methods()) {
       request.method = {.name = entry.name};
       if (!refusal(request.method, problem).empty() || not_recorded.contains(entry.name)) continue;
-      const std::pair<const char*, const char*> choices[] = {
-          {"double", "exact"}, {"compensated", "exact"}, {"double", "fast"}, {"compensated", "fast"}};
-      for (const auto& [arithmetic, kernel] : choices) {
+      for (const char* const arithmetic : {"double", "compensated"}) {
         if (!refusal(request.method, arithmetic).empty()) continue;
-        if (kernel == std::string("fast") && !differs_in_shape(entry.name)) continue;
         request.arithmetic = arithmetic;
-        request.kernel = kernel;
-        SCOPED_TRACE(entry.name + " on " + request.problem + " in " + arithmetic + ", " + kernel);
-        // By the ordinary road every fast force is a recording.
-        const int steps = request.kernel == "fast" ? std::max(compared_steps() / 10, 250) : compared_steps();
+        SCOPED_TRACE(entry.name + " on " + request.problem + " in " + arithmetic);
+        const int steps = compared_steps();
         request.record = true;
-        if (!refused_fast_step(request).empty()) continue;  // of bodies
         const auto loop = make_simulation(request);
         request.record = false;
         const auto ordinary = make_simulation(request);
@@ -100,15 +86,10 @@ TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
       }
     }
   }
-  std::cout << cases << " cases of " << 2 * compared_steps() << " steps and more (fast: a tenth), " << recorded
+  std::cout << cases << " cases of " << 2 * compared_steps() << " steps and more, " << recorded
             << " of them recorded\n";
   EXPECT_GT(recorded, 1000);
 }
-
-template <class P>
-inline constexpr bool is_fast = false;
-template <class P>
-inline constexpr bool is_fast<FastKernel<P>> = true;
 
 /// The typed template, which is the oracle, against the simulation by name.
 template <class A, class P, class Recipe>
@@ -118,7 +99,6 @@ void expect_typed_bits(const std::string& problem, const std::map<std::string, s
   Request request = test::measured_request(*find_problem(problem, variant));
   request.method = {.name = method};
   request.arithmetic = std::is_same_v<A, Plain<double>> ? "double" : "compensated";
-  request.kernel = is_fast<P> ? "fast" : "exact";
   const auto by_name = make_simulation(request);
   const std::size_t n = request.start.q.size();
   const Parameters<double> parameters(complete(find_problem(problem, variant)->info, request.parameters));
@@ -168,13 +148,11 @@ void expect_typed_rk4(const std::string& problem, const std::map<std::string, st
 
 TEST(Recorded, TheTypedTemplatesHaveTheSameBits) {
   expect_typed_splittings<CentralForce<double, Kepler>>("central-force", {{"potential", "kepler"}});
-  expect_typed_splittings<FastKernel<CentralForce<double, Kepler>>>("central-force", {{"potential", "kepler"}});
   expect_typed_splittings<HenonHeiles<double>>("henon-heiles");
   expect_typed_splittings<Pendulum<double>>("pendulum");
   expect_typed_splittings<Fput<double>>("fput");
   expect_typed_splittings<NBody<double>>("n-body");
   expect_typed_rk4<CentralForce<double, Kepler>>("central-force", {{"potential", "kepler"}});
-  expect_typed_rk4<FastKernel<CentralForce<double, Kepler>>>("central-force", {{"potential", "kepler"}});
   expect_typed_rk4<PolarCentralForce<double, Kepler>>("central-force",
                                                       {{"potential", "kepler"}, {"coordinates", "polar"}});
   expect_typed_rk4<DoublePendulumNonlinearAbsolute<double>>("double-pendulum",

@@ -66,11 +66,6 @@ std::vector<Request> every_request() {
           request.watch = false;
           all.push_back(request);
         }
-        if (is_of_each_kind(name) && refused_fast_kernel(request).empty()) {
-          request.kernel = "fast";
-          if (refused_fast_step(request).empty()) all.push_back(request);
-          request.kernel = "exact";
-        }
       }
     }
   }

@@ -33,7 +33,6 @@ const RunDescription description{.scenario = "text",
                                  .problem = "p",
                                  .method = "m",
                                  .arithmetic = "double",
-                                 .kernel = "exact",
                                  .dimension = 2,
                                  .invariants = {{"angular_momentum", 1}}};
 

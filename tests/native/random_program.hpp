@@ -121,13 +121,11 @@ inline RandomCase random_case(Draw& draw, const RandomForm& form) {
   const bool has_numbers = form.values + form.constants > 0;
   for (std::size_t i = 0; has_numbers && i < form.operations; ++i) {
     for (int attempt = form.ordinary ? 0 : 29; attempt < 30; ++attempt) {
-      // Estimates and fused operations are made only where the processor has them.
-      constexpr auto first_estimate = static_cast<std::size_t>(Instruction::inverse_root_estimate);
       constexpr auto first_call = static_cast<std::size_t>(Instruction::exponential);
       const auto instruction = static_cast<Instruction>(
           draw.chance(form.calls)
               ? first_call + draw.below(static_cast<std::size_t>(Instruction::power) + 1 - first_call)
-              : draw.below(fast_kernel_available() ? first_call : first_estimate));
+              : draw.below(first_call));
       const int arity = native::arity(instruction);
       const Operand a = operand(), b = arity > 1 ? operand() : Operand{}, c = arity > 2 ? operand() : Operand{};
       const double x = native::applied(instruction, value(a), value(b), value(c));

@@ -97,8 +97,7 @@ void compare_block(const MemberFamily& family, std::span<const MemberStart> memb
   tally.out_of_step += out_of_step ? 1 : 0;
 }
 
-void compare_all(LaneSet set, std::initializer_list<std::string> methods, std::size_t members, Tally& tally,
-                 const std::string& kernel = "exact") {
+void compare_all(LaneSet set, std::initializer_list<std::string> methods, std::size_t members, Tally& tally) {
   if (set > widest_lanes()) return;
   for (const ProblemEntry& problem : problems()) {
     for (const std::string& method : methods) {
@@ -109,7 +108,6 @@ void compare_all(LaneSet set, std::initializer_list<std::string> methods, std::s
       // Long steps let vectors grow so fast that lanes orthonormalise at steps of their own.
       for (std::size_t i = 0; i < members; ++i) family.members[i].h *= i % 3 == 0 ? 10.0 : i % 3 == 1 ? 1.0 : 5.0;
       family.request.method = {.name = method};
-      family.request.kernel = kernel;
       const auto block = make_ensemble_block(family.request, set);
       ASSERT_NE(block, nullptr);
       Section section{.coordinate = 0, .momentum = family.members[0].q.size() == 1, .direction = 0};
@@ -130,8 +128,6 @@ TEST(LaneRun, WhatIsMeasuredHasTheBitsOfMembersAlone) {
   compare_all(LaneSet::avx2, {"verlet-dkd", "chin4a"}, 16, tally);
   compare_all(LaneSet::generic, {"stv4"}, 5, tally);
   EXPECT_EQ(tally.on_their_own, 0);
-  // What goes by estimates has no derivative: vectors take the exact steps, one member at a time.
-  compare_all(widest_lanes(), {"stv4"}, 5, tally, "fast");
   std::cout << tally.members << " members, " << tally.points << " points, " << tally.out_of_step
             << " blocks out of step, " << tally.on_their_own << " vectors on their own\n";
   EXPECT_GT(tally.members, 500);

@@ -169,23 +169,19 @@ std::vector<BulkSet> sets() {
 void expect_reference(const BulkPairSystem& s, const std::vector<double>& q, const std::string& what) {
   const Reference wanted = reference(s, q);
   std::vector<double> first;
-  for (const BulkKernel kernel : {BulkKernel::exact, BulkKernel::fast}) {
-    for (const BulkSet set : sets()) {
-      if (kernel == BulkKernel::fast && set == BulkSet::sse2) continue;
-      const BulkForces forces(s, kernel, set);
-      std::vector<double> f(q.size());
-      const double v = forces.force_and_potential(q.data(), f.data());
-      EXPECT_LE(std::abs(v - wanted.potential), wanted.potential_bound) << what;
-      for (std::size_t i = 0; i < f.size(); ++i) {
-        ASSERT_LE(std::abs(f[i] - wanted.force[i]), wanted.force_bound[i]) << what << ", force " << i;
-      }
-      std::vector<double> again(q.size());
-      forces.force(q.data(), again.data());
-      EXPECT_EQ(again, f) << what << ": without the energy";
-      if (kernel == BulkKernel::fast) continue;
-      if (first.empty()) first = f;
-      EXPECT_EQ(f, first) << what << ": another instruction set";
+  for (const BulkSet set : sets()) {
+    const BulkForces forces(s, set);
+    std::vector<double> f(q.size());
+    const double v = forces.force_and_potential(q.data(), f.data());
+    EXPECT_LE(std::abs(v - wanted.potential), wanted.potential_bound) << what;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      ASSERT_LE(std::abs(f[i] - wanted.force[i]), wanted.force_bound[i]) << what << ", force " << i;
     }
+    std::vector<double> again(q.size());
+    forces.force(q.data(), again.data());
+    EXPECT_EQ(again, f) << what << ": without the energy";
+    if (first.empty()) first = f;
+    EXPECT_EQ(f, first) << what << ": another instruction set";
   }
 }
 
@@ -255,7 +251,7 @@ std::uint64_t hash_of_motion(const BulkPairSystem& s, BulkSet set, std::size_t t
   std::vector<double> p = lattice(s.space, per_side, 1, 0);
   std::vector<double> f(q.size());
   for (std::size_t i = 0; i < p.size(); ++i) p[i] -= std::nearbyint(p[i]);
-  const BulkForces forces(s, BulkKernel::exact, set);
+  const BulkForces forces(s, set);
   forces.use_threads(threads);
   std::uint64_t hash = 1;
   double v = forces.force_and_potential(q.data(), f.data());
@@ -306,20 +302,17 @@ TEST(BulkForces, HaveTheSameBitsForAnyThreadsWithoutLists) {
   std::vector<double> one(q.size()), many(q.size());
   for (const Kind law : {Kind::lennard_jones, Kind::newton}) {
     s.law = law;
-    for (const BulkKernel kernel : {BulkKernel::exact, BulkKernel::fast}) {
-      if (kernel == BulkKernel::fast && !BulkForces::has_fast_kernel()) continue;
-      const BulkForces forces(s, kernel);
-      const double v = forces.force_and_potential(q.data(), one.data());
-      for (const std::size_t threads : {2u, 4u}) {
-        forces.use_threads(threads);
-        EXPECT_EQ(forces.force_and_potential(q.data(), many.data()), v);
-        EXPECT_EQ(many, one);
-      }
+    const BulkForces forces(s);
+    const double v = forces.force_and_potential(q.data(), one.data());
+    for (const std::size_t threads : {2u, 4u}) {
+      forces.use_threads(threads);
+      EXPECT_EQ(forces.force_and_potential(q.data(), many.data()), v);
+      EXPECT_EQ(many, one);
     }
   }
 }
 
-/// Of what kernel exact makes of a jittered lattice: forces and potential.
+/// Of a jittered lattice: forces and potential.
 std::uint64_t hash_of_forces(BulkPairSystem s, std::size_t per_side, BulkSet set) {
   const auto q = lattice(s.space, per_side, 0.15, -0.5 * static_cast<double>(per_side));
   s.particles = q.size() / s.space;
@@ -327,7 +320,7 @@ std::uint64_t hash_of_forces(BulkPairSystem s, std::size_t per_side, BulkSet set
     for (std::size_t i = 0; i < s.particles; ++i) s.strengths.push_back(0.5 + static_cast<double>(i % 5));
   }
   std::vector<double> f(q.size());
-  const BulkForces forces(s, BulkKernel::exact, set);
+  const BulkForces forces(s, set);
   forces.use_threads(2);
   f.push_back(forces.force_and_potential(q.data(), f.data()));
   std::uint64_t hash = 1;
@@ -489,7 +482,7 @@ TEST(BulkForces, SumToNothing) {
 TEST(BulkForces, RefuseWhatTheyCannotDo) {
   const auto refused = [](BulkPairSystem s, const std::string& text) {
     try {
-      BulkForces(s, BulkKernel::exact);
+      (void)BulkForces(s);
       FAIL() << "accepted, wanted: " << text;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
@@ -511,9 +504,6 @@ TEST(BulkForces, RefuseWhatTheyCannotDo) {
   s = melt(2, 8);
   s.skin = std::numeric_limits<double>::quiet_NaN();
   refused(s, "skin: found");
-  if (BulkForces::has_fast_kernel()) {
-    EXPECT_NO_THROW(BulkForces(melt(2, 8), BulkKernel::fast));
-  }
 }
 
 }  // namespace

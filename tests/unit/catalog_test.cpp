@@ -353,29 +353,5 @@ TEST(Catalog, KnowsWhereAProblemIsSingular) {
   EXPECT_TRUE(kepler.regular(parameters, {1, 0}, {0, 1}));
 }
 
-TEST(Catalog, KernelFastNamesTheInstructionSetThatRan) {
-  const auto with = [](std::size_t coordinates, const Texts& parameters, const std::string& pair,
-                       const std::string& arithmetic, const char* problem = "gas") {
-    Request request;
-    request.problem = problem;
-    request.start.q.assign(coordinates, "0");
-    request.parameters = parameters;
-    if (!pair.empty()) request.variant[GasKeys::pair] = pair;
-    request.arithmetic = arithmetic;
-    return request;
-  };
-  // Only the bulk forces of a gas have AVX2; twelve particles and fewer, typed pairs and more digits are without.
-  for (const char* const widest : {"avx512", "avx2", "x86-64"}) {
-    EXPECT_EQ(fast_instruction_set(with(26, {}, "", "double"), widest), widest);
-    EXPECT_EQ(fast_instruction_set(with(39, {{"dimension", "3"}}, "newton", "compensated"), widest), widest);
-  }
-  EXPECT_EQ(fast_instruction_set(with(24, {}, "", "double"), "avx2"), "x86-64");
-  EXPECT_EQ(fast_instruction_set(with(36, {{"dimension", "3"}}, "", "double"), "avx2"), "x86-64");
-  EXPECT_EQ(fast_instruction_set(with(26, {}, "formula", "double"), "avx2"), "x86-64");
-  EXPECT_EQ(fast_instruction_set(with(26, {}, "", "quad"), "avx2"), "x86-64");
-  EXPECT_EQ(fast_instruction_set(with(90, {}, "", "double", "n-body"), "avx2"), "x86-64");
-  EXPECT_EQ(fast_instruction_set(with(24, {}, "", "double"), "avx512"), "avx512");
-}
-
 }  // namespace
 }  // namespace hamflow

@@ -1,9 +1,8 @@
 // Forces and potential energy of all particles of a pair system in one call, with neighbour lists, registers and
-// threads. kernel exact: the bits are a function of the positions alone. Of each particle's neighbours in range, in the
+// threads. The bits are a function of the positions alone. Of each particle's neighbours in range, in the
 // order of particle numbers, the k-th is added to the (k mod 8)-th of eight partial sums, whatever the width of a
 // register, and nothing is fused. They then depend neither on threads nor on the instruction set, nor on when lists
-// were made. kernel fast: reciprocals by estimate and series, fused operations: one set of bits for each instruction
-// set.
+// were made.
 #pragma once
 
 #include <array>
@@ -48,7 +47,6 @@ struct BulkPairSystem {
   bool rebuild_every_time = false;  // of neighbour lists, for tests
 };
 
-enum class BulkKernel : unsigned char { exact, fast };
 /// What the kernels are compiled for; `best` is the widest of them that this machine has.
 enum class BulkSet : unsigned char { sse2, avx2, avx512, best };
 
@@ -57,10 +55,9 @@ enum class BulkSet : unsigned char { sse2, avx2, avx512, best };
 class BulkForces {
  public:
   /// @throws Error where a number is out of its range, naming it, or the machine lacks the instruction set
-  explicit BulkForces(const BulkPairSystem& system, BulkKernel kernel = BulkKernel::exact, BulkSet set = BulkSet::best);
+  explicit BulkForces(const BulkPairSystem& system, BulkSet set = BulkSet::best);
 
-  /// Whether this machine has the instructions of kernel fast, or of a set.
-  static bool has_fast_kernel();
+  /// Whether this machine has the instructions of a set.
   static bool has(BulkSet set);
 
   /// f <- -dV/dq. @param q, f space x particles numbers, particle by particle

@@ -46,11 +46,6 @@ template <class P, class F, class S = RealOf<P>>
 concept HasScaledForce = requires(const P& problem, const F& factor, const VectorOf<P, S>& q, VectorOf<P, S>& f) {
   problem.scaled_force(factor, q, f);
 };
-/// fast_force(q, f, factor): f = -factor dV/dq by other operations, for kernel = "fast". Default: there is none.
-template <class P>
-concept HasFastForce = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f) {
-  problem.fast_force(q, f, RealOf<P>(1));
-};
 /// potential_hessian(q, out): out[i][j] = d^2 V/dq_i dq_j. Default: by force_and_hessian if that is by hand.
 template <class P, class S = RealOf<P>>
 concept HasPotentialHessian = requires(const P& problem, const VectorOf<P, S>& q, MatrixOf<P, S>& out) {

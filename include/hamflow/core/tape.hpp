@@ -24,7 +24,6 @@
 
 #include "hamflow/core/dual.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/math.hpp"
 
 namespace hamflow {
@@ -58,11 +57,8 @@ enum class Operation {
   choose,      // a > 0 ? b : c
   arcsine,
   arccosine,
-  arctangent2,   // atan2(a, b)
-  power_of_two,  // a^b, of two numbers
-  // By estimate and series (inverse_cube.hpp), where a recording estimates.
-  inverse_cube,  // a/(b sqrt(b))
-  inverse_root   // a/sqrt(b)
+  arctangent2,  // atan2(a, b)
+  power_of_two  // a^b, of two numbers
 };
 
 struct TapeNode {
@@ -202,37 +198,6 @@ class Recorder {
     values_.clear();
     std::fill(known_.begin(), known_.end(), 0);
     entries_ = 0;
-    estimates_ = has_estimated_ = false;
-  }
-
-  /// From here on, a/(u sqrt(u)) and a/sqrt(u) are estimated: kernel = "fast", which is for double.
-  void set_estimates(bool wanted) { estimates_ = wanted && std::is_same_v<R, double>; }
-  bool estimates() const { return estimates_; }
-  bool has_estimated() const { return has_estimated_; }
-  /// sqrt(u) and u sqrt(u) below a line, as what a quotient by them is; of: the node of u, or -1 for anything else.
-  struct PowerBelow {
-    Operation operation;
-    int of = -1;
-  };
-  PowerBelow power_below(int divisor) {
-    const TapeNode& b = node(divisor);
-    const auto is_root = [&](int i, int of) { return node(i).operation == Operation::square_root && node(i).a == of; };
-    if (b.operation == Operation::square_root) return {Operation::inverse_root, b.a};
-    if (b.operation != Operation::multiply) return {Operation::divide, -1};
-    if (is_root(b.b, b.a)) return {Operation::inverse_cube, b.a};
-    return is_root(b.a, b.b) ? PowerBelow{Operation::inverse_cube, b.b} : PowerBelow{Operation::divide, -1};
-  }
-  /// a/sqrt(u) or a/(u sqrt(u)).
-  Trace<R> estimated(const PowerBelow& power, const Trace<R>& a) {
-    if constexpr (std::is_same_v<R, double>) {
-      has_estimated_ = true;
-      const double u = values_[static_cast<std::size_t>(power.of)];
-      const double value =
-          power.operation == Operation::inverse_cube ? inverse_cube(u, a.value) : inverse_root(u, a.value);
-      return of_two(power.operation, node_of(a), power.of, value);
-    } else {
-      throw std::logic_error("hamflow: estimates are for double");
-    }
   }
 
   Trace<R> input(const R& value) {
@@ -384,8 +349,6 @@ class Recorder {
   }
 
   bool exact_;
-  bool estimates_ = false;
-  bool has_estimated_ = false;
   std::size_t most_nodes_;
   Tape<R> tape_;
   std::vector<R> values_;
@@ -431,9 +394,6 @@ Trace<R> Trace<R>::quotient(const Trace& a, const Trace& b) {
   if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
   if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
   if (b.is_exactly(1) && !a.is_exact()) return a;
-  if (!b.is_constant() && b.recorder->estimates()) {
-    if (const auto power = b.recorder->power_below(b.node); power.of >= 0) return b.recorder->estimated(power, a);
-  }
   const R value = a.value / b.value;
   if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, value);
   if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, value);

@@ -21,10 +21,6 @@ enum class Instruction : std::uint8_t {
   larger,       // a < b ? b : a
   square_root,  // of a; correctly rounded
   choose,       // a > 0 ? b : c
-  // Of kernel = "fast" alone (run/recorded_step.cpp).
-  inverse_root_estimate,  // a^(-1/2) to within 2^-14, of the processor
-  fused_add,              // a b + c with one rounding
-  fused_subtract,         // c - a b with one rounding
   // Functions of the system's library, called.
   exponential,
   logarithm,
@@ -62,7 +58,7 @@ struct Program {
     Instruction instruction;
     Operand a;
     Operand b;    // none for functions of one number
-    Operand c{};  // of choose and of fused operations
+    Operand c{};  // of choose
     friend bool operator==(const Operation&, const Operation&) = default;
   };
   struct Check {

@@ -136,12 +136,6 @@ bool replay(const Tape<R>& tape, Vector<Slope<S>, dynamic>& nodes) {
       case Operation::power_of_two:
         out = exp(b() * log(a()));
         break;
-      case Operation::inverse_cube:
-        out = a() / (b() * sqrt(b()));
-        break;
-      case Operation::inverse_root:
-        out = a() / sqrt(b());
-        break;
     }
   }
   for (const auto& guard : tape.guards) {

@@ -174,8 +174,6 @@ class TaylorSeries {
       case Operation::arccosine:
       case Operation::arctangent2:
       case Operation::power_of_two:
-      case Operation::inverse_cube:
-      case Operation::inverse_root:
         Trace<Constant>::refuse();
     }
   }

@@ -54,7 +54,6 @@ struct Request {
   MethodSpec method;
   std::string dt = "0.1";
   std::string arithmetic = "double";
-  std::string kernel = "exact";
   double position_unit = 0x1p-52;  // lattice spacings, powers of two
   double momentum_unit = 0x1p-52;
   int threads = 1;     // for the forces of one step
@@ -192,10 +191,6 @@ std::span<const MethodFamily> method_families();
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
 /// Why a method cannot run on a problem, and which can; empty if it can.
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem);
-/// Why a request cannot have kernel = "fast"; empty if it can.
-std::string refused_fast_kernel(const Request& request);
-/// Why the step of a complete request cannot have it: "found ...; allowed ..."; empty if it can.
-std::string refused_fast_step(const Request& request);
 /// Why a request cannot have several threads; empty if it can.
 std::string refused_threads(const Request& request, const ProblemEntry& problem);
 inline constexpr int most_threads = 256;

@@ -1,5 +1,5 @@
 // Functions of a problem behind virtual calls that are those of another one, but for what a class derived from these
-// overrides: estimates (run/fast_functions.hpp), walls (src/catalog/walled_functions.hpp).
+// overrides: walls (src/catalog/walled_functions.hpp), sums over pairs (src/catalog/bulk_gas.cpp).
 #pragma once
 
 #include <memory>

@@ -36,11 +36,4 @@ struct GasKeys {
 /// The pair laws that are built in: names, formulas and parameters.
 const std::vector<ProblemInfo>& pair_laws();
 
-/// What kernel fast runs on, of which a run's last bits depend: "avx512"; "avx2", which only the bulk forces of a gas
-/// have; "x86-64", where it computes what kernel exact does.
-/// @param widest of this machine's instruction sets, by that name
-std::string_view fast_instruction_set(const Request& request, std::string_view widest);
-/// The same on this machine.
-std::string_view fast_instruction_set(const Request& request);
-
 }  // namespace hamflow

@@ -53,7 +53,6 @@ struct MethodFamily {
   std::function<std::any(const Texts& options)> read{};
   int rank = 0;                              // in lists: 0 by order and cost, then 1, 2, ...
   std::string not_on_lattice;                // why it is no bijection of the lattice; empty: it is one
-  std::string not_fast;                      // why kernel = "fast" is refused; empty: it is not
   std::vector<std::string> representatives;  // the forms that `verify --all` measures; none: each method as it is
   bool counts_forces = true;                 // its work is counted in evaluations of a force, or of a gradient
 

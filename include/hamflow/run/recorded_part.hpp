@@ -30,9 +30,8 @@ void for_each_counter(Leaf&& leaf, Objects&... objects) {
 }
 
 /// @tparam A of traces, of any length (methods/step_density.hpp)   @param method bound to `problem`
-/// @param exact of H = T + V, gives velocity and energy at the end, which no estimate goes into
 template <class A, class P, class M>
-std::optional<RecordedPart> record_part(const P& problem, const P& exact, M method, const Vector<double, dynamic>& q,
+std::optional<RecordedPart> record_part(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, std::size_t most_operations) {
   using Number = Trace<double>;
   PhasePoint<A, dynamic> z;
@@ -66,10 +65,10 @@ std::optional<RecordedPart> record_part(const P& problem, const P& exact, M meth
     const Vector<Number, dynamic> q1 = z.positions();
     const Vector<Number, dynamic> p1 = z.momenta();
     Vector<Number, dynamic> v = zeros_like(p1);
-    velocity(exact, p1, v);
+    velocity(problem, p1, v);
     after.insert(after.end(), q1.begin(), q1.end());
     after.insert(after.end(), v.begin(), v.end());
-    after.push_back(energy(exact, q1, p1));
+    after.push_back(energy(problem, q1, p1));
     recorded.program = program_of(recorder.finish(after));
     return recorded;
   } catch (const CannotRecord&) {

@@ -185,8 +185,6 @@ struct Summary {
   std::string problem;
   std::string method;  // canonical, e.g. "cg(1,5)"
   std::string arithmetic;
-  std::string kernel;
-  std::string instruction_set{};          // of the kernel "fast"; else empty
   std::optional<LatticeUnits> lattice{};  // of the arithmetic "lattice"
   Value::Table parameters{};              // of the problem, defaults included
   double dt = 0;

@@ -60,7 +60,6 @@ struct SweepSummary {
   // Of all members; none: the key is varied.
   std::optional<std::string> problem;
   std::optional<std::string> arithmetic;
-  std::optional<std::string> kernel;
   std::size_t members = 0;
   std::size_t done = 0;
   std::size_t failed = 0;

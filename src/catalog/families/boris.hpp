@@ -15,7 +15,6 @@ struct Boris {
             .methods = {"boris"},
             .rank = 2,
             .not_on_lattice = "boris rotates velocities, which is no bijection of the lattice",
-            .not_fast = "the push of a charge divides by no root",
             .describe = [](std::size_t, const Texts&) { return describe_boris(); },
             .needs = [](std::size_t) { return "a charge in a uniform magnetic field (problem magnetic)"; },
             .advice =

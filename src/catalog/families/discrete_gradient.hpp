@@ -28,7 +28,6 @@ struct DiscreteGradient {
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice",
-        .not_fast = "an implicit step needs the exact force",
         .describe = [](std::size_t, const Texts& given) { return hamflow::DiscreteGradient{read(given)}.info(); },
         .needs =
             [](std::size_t) { return "a twice differentiable H without an explicit t, whose formula can be recorded"; },

@@ -29,7 +29,6 @@ struct Eg {
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice",
-        .not_fast = "an implicit step needs the exact force",
         .representatives = {"eg(1)", "eg(2)", "eg(3)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs =

@@ -29,7 +29,6 @@ struct ImplicitMidpoint {
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice",
-        .not_fast = "an implicit step needs the exact force",
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs = [](std::size_t) { return "a twice differentiable H"; },
         .advice =

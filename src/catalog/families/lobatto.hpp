@@ -31,7 +31,6 @@ struct Lobatto {
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice",
-        .not_fast = "an implicit step needs the exact force",
         .representatives = {"lobatto-3a-3b(2)", "lobatto-3a-3b(3)", "lobatto-3a-3b(4)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs = [](std::size_t) { return "a twice differentiable H"; },

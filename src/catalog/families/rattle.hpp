@@ -30,7 +30,6 @@ struct Rattle {
         .not_on_lattice =
             "an implicit step is no bijection of the lattice, and the splitting methods, which are, take no "
             "constraints; use another arithmetic, or generalised coordinates where H is T(p) + V(q) in them",
-        .not_fast = "an implicit step needs the exact force",
         .describe = [](std::size_t method, const Texts& given) { return hamflow::describe(of(method, read(given))); },
         .needs = [](std::size_t) { return "constraints g(q) = 0 and H = p^T M^-1 p/2 + V(q)"; },
         .advice =

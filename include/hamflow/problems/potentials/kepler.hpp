@@ -2,7 +2,6 @@
 // Starts: the circle at phi = pi/2 (2.127), (2.128), the other conics at pericentre on the x-axis (2.131).
 #pragma once
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/two.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 #include "hamflow/problems/support/kepler_flow.hpp"
@@ -55,15 +54,6 @@ class Kepler {
   template <class S, class F = R>
   S slope(const S& u, const F& factor = F(1)) const {
     return (factor * k_) / (u * sqrt(u));
-  }
-  /// The slope for FastKernel: other last bits where the machine has the instructions, and only in double.
-  template <class S, class F = R>
-  S fast_slope(const S& u, const F& factor = F(1)) const {
-    if constexpr (std::is_same_v<S, double> && std::is_same_v<R, double> && std::is_same_v<F, double>) {
-      return inverse_cube(u, factor * k_);
-    } else {
-      return slope(u, factor);
-    }
   }
   template <class S>
   CentralDerivatives<S> derivatives(const S& u) const {

@@ -95,12 +95,6 @@ class CentralForce {
   void scaled_force(const F& factor, const Vector<S, 2>& q, Vector<S, 2>& f) const {
     attract(potential_.slope(square(q), factor), q, f);
   }
-  /// The force for FastKernel, of potentials that have a fast slope.
-  template <class S, class F = R>
-  requires potentials::HasFastSlope<Potential<R>, S, F>
-  void fast_force(const Vector<S, 2>& q, Vector<S, 2>& f, const F& factor = F(1)) const {
-    attract(potential_.fast_slope(square(q), factor), q, f);
-  }
   template <class S>
   void force_and_hessian(const Vector<S, 2>& q, Vector<S, 2>& f, Matrix<S, 2>& hessian) const {
     const CentralDerivatives<S> d = potential_.derivatives(square(q));

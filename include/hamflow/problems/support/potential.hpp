@@ -42,7 +42,6 @@ template <class V>
 inline constexpr bool takes_two = requires {
   requires V::takes_two;
 };
-/// fast_slope(u, factor): the same by other operations, for kernel = "fast". Default: there is none.
 template <class V, class S, class F>
 concept HasFastSlope = requires(const V& potential, const S& u, const F& factor) {
   potential.fast_slope(u, factor);

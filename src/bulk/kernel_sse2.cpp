@@ -1,0 +1,2 @@
+#define HAMFLOW_BULK_KERNELS sse2
+#include "kernel_body.hpp"
