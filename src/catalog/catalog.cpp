@@ -183,7 +183,7 @@ static bool beats_loops(const Program& program) {
                       [=](const Program::Operation& operation) { return ((operation.instruction == kinds) || ...); }));
   };
   return program.operations.size() <= in_first_cache ||
-         share * count(Instruction::divide, Instruction::square_root) >= program.operations.size();
+         share * count(Instruction::divide, Instruction::sqrt) >= program.operations.size();
 }
 
 std::unique_ptr<Simulation> make_simulation(const Request& request) { return make_simulation_of(Request(request)); }

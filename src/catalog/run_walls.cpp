@@ -41,7 +41,7 @@ Sign sign_of(const TapeNode& node, const std::vector<double>& constants, const s
   const auto of_even_function = [&] { return at(node.a) == Sign::unknown ? Sign::unknown : Sign::stays; };
   const auto of_other_function = [&] { return at(node.a) == Sign::stays ? Sign::stays : Sign::unknown; };
   switch (node.operation) {
-    case Operation::constant:
+    case Operation::number:
       return Sign::stays;
     case Operation::add:
     case Operation::subtract:
@@ -53,33 +53,32 @@ Sign sign_of(const TapeNode& node, const std::vector<double>& constants, const s
     case Operation::scale:
     case Operation::divide_constant:
     case Operation::invert:
-    case Operation::sine:
-    case Operation::sinh:
-    case Operation::tangent:
-    case Operation::tanh:
-    case Operation::arctangent:
-    case Operation::arcsine:
       return at(node.a);
     case Operation::square:
-    case Operation::cosine:
-    case Operation::cosh:
-    case Operation::absolute:
       return of_even_function();
-    case Operation::power: {
+    case Operation::power_constant: {
       const double exponent = constants[static_cast<std::size_t>(node.constant)];
       if (at(node.a) != Sign::turns) return at(node.a);
       if (std::fmod(exponent, 2) == 0) return Sign::stays;
       return std::fmod(exponent, 1) == 0 ? Sign::turns : Sign::unknown;
     }
     case Operation::larger:
-    case Operation::arctangent2:
-    case Operation::power_of_two:
+    case Operation::atan2:
+    case Operation::power:
     case Operation::choose: {
       const bool third = node.operation != Operation::choose || at(node.c) == Sign::stays;
       return third && at(node.a) == Sign::stays && at(node.b) == Sign::stays ? Sign::stays : Sign::unknown;
     }
     default:
-      return of_other_function();
+      switch (symmetry_of(node.operation)) {
+        case Symmetry::odd:
+          return at(node.a);
+        case Symmetry::even:
+          return of_even_function();
+        case Symmetry::neither:
+          return of_other_function();
+      }
+      return Sign::unknown;
   }
 }
 

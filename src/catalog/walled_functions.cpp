@@ -124,14 +124,6 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     S second;
   };
 
-  /// x^n, n > 0, by repeated squaring.
-  static S whole_power(const S& x, int n) {
-    if (n == 1) return x;
-    const S half = whole_power(x, n / 2);
-    const S square = half * half;
-    return n % 2 == 0 ? square : S(square * x);
-  }
-
   /// V = k w/(2 (e - 1)) (1 - x^2)^(1 - e), for e = 1 -(k w/2) ln(1 - x^2), and its force -k x/(1 - x^2)^e.
   Term at(const Soft& wall, const V& q) const {
     const B& k = walls_->strength;

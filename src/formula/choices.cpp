@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "hamflow/core/syntax.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/model.hpp"
 #include "names.hpp"
-#include "syntax.hpp"
 
 namespace hamflow {
 
@@ -183,9 +183,9 @@ FormulaTexts formula_texts(const Choices& choices) {
 }
 
 FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters) {
-  formula::Syntax syntax;
+  Syntax syntax;
   try {
-    syntax = formula::read_syntax(hamiltonian, {});
+    syntax = read_syntax(hamiltonian, {.characters = FormulaLimits::characters, .operations = FormulaLimits::terms});
   } catch (const Error& error) {
     throw FormulaError(FormulaKeys::hamiltonian, error.what());
   }
@@ -193,13 +193,13 @@ FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& p
   texts.hamiltonian = hamiltonian;
   texts.parameters = parameters;
   std::set<std::string> locals;
-  for (const formula::Part& part : syntax.parts) {
-    if (part.kind == formula::Part::Kind::let || part.kind == formula::Part::Kind::sum) locals.emplace(part.word);
+  for (const Part& part : syntax.parts) {
+    if (part.kind == Part::Kind::let || part.kind == Part::Kind::sum) locals.emplace(part.word);
   }
   // In the order of the text; an operand stands before what is made of it.
   std::vector<std::pair<std::size_t, std::string>> words;
-  for (const formula::Part& part : syntax.parts) {
-    if (part.kind == formula::Part::Kind::name && !locals.contains(std::string(part.word))) {
+  for (const Part& part : syntax.parts) {
+    if (part.kind == Part::Kind::name && !locals.contains(std::string(part.word))) {
       words.emplace_back(part.at, std::string(part.word));
     }
   }

@@ -345,6 +345,28 @@ int Forms::derivative(int form, int symbol) {
   return all;
 }
 
+/// A form as a number, for the rules of derivatives.
+struct FormNumber {
+  Forms* forms;
+  int form;
+
+  friend FormNumber operator+(const FormNumber& a, const FormNumber& b) {
+    return {a.forms, a.forms->sum({a.form, b.form})};
+  }
+  friend FormNumber operator-(const FormNumber& a, const FormNumber& b) {
+    return {a.forms, a.forms->difference(a.form, b.form)};
+  }
+  friend FormNumber operator-(const FormNumber& a) { return {a.forms, a.forms->scaled({-1, 1}, a.form)}; }
+  friend FormNumber operator*(const FormNumber& a, const FormNumber& b) {
+    return {a.forms, a.form == b.form ? a.forms->power(a.form, {2, 1}) : a.forms->product(a.form, b.form)};
+  }
+  friend FormNumber sqrt(const FormNumber& a) { return {a.forms, a.forms->function(Op::sqrt, a.form)}; }
+#define HAMFLOW_FORM_FUNCTION(name, symmetry, rule, series) \
+  friend FormNumber name(const FormNumber& a) { return {a.forms, a.forms->function(Op::name, a.form)}; }
+  HAMFLOW_FUNCTIONS(HAMFLOW_FORM_FUNCTION)
+#undef HAMFLOW_FORM_FUNCTION
+};
+
 int Forms::derivative_of_base(int index, int symbol) {
   const Base b = base_at(index);
   if (b.kind == Base::Kind::symbol) return constant({1, 1});
@@ -368,45 +390,14 @@ int Forms::derivative_of_base(int index, int symbol) {
     const int up = difference(product(x, by_a), product(y, derivative(x, symbol)));
     result = product(up, power(sum({square(x), square(y)}), {-1, 1}));
   } else {
-    int slope = -1;
-    switch (b.op) {
-      case Op::exp:
-        slope = self;
-        break;
-      case Op::log:
-        slope = power(b.a, {-1, 1});
-        break;
-      case Op::sin:
-        slope = function(Op::cos, b.a);
-        break;
-      case Op::cos:
-        slope = scaled({-1, 1}, function(Op::sin, b.a));
-        break;
-      case Op::tan:
-        slope = sum({one, square(self)});
-        break;
-      case Op::asin:
-        slope = power(difference(one, square(b.a)), {-1, 2});
-        break;
-      case Op::acos:
-        slope = scaled({-1, 1}, power(difference(one, square(b.a)), {-1, 2}));
-        break;
-      case Op::atan:
-        slope = power(sum({one, square(b.a)}), {-1, 1});
-        break;
-      case Op::sinh:
-        slope = function(Op::cosh, b.a);
-        break;
-      case Op::cosh:
-        slope = function(Op::sinh, b.a);
-        break;
-      case Op::tanh:
-        slope = difference(one, square(self));
-        break;
-      default:  // abs: the sign of a
-        slope = product(b.a, power(self, {-1, 1}));
+    const FormNumber x{this, b.a};
+    const FormNumber y{this, self};
+    if (b.op == Op::abs) {  // the sign of a
+      result = product(product(b.a, power(self, {-1, 1})), by_a);
+    } else {
+      const DerivativeRule<FormNumber> rule = derivative_rule(b.op, x, y, FormNumber{this, one});
+      result = product(rule.divides ? power(rule.by.form, {-1, 1}) : rule.by.form, by_a);
     }
-    result = product(slope, by_a);
   }
   base_derivatives_.emplace(std::pair{index, symbol}, result);
   return result;

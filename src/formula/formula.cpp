@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "hamflow/core/syntax.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
-#include "syntax.hpp"
 
 namespace hamflow {
 
@@ -95,9 +95,7 @@ class Meaning {
   }
   int checked(const Part& part, int node, long double value) {
     if (!(std::abs(value) <= static_cast<long double>(DBL_MAX))) {
-      refuse(part.at,
-             syntax_.shown_part(part) + (value == value ? " is infinite or too large" : " is not a real number"),
-             "finite real numbers");
+      syntax_.refuse_value(part, value == value);
     }
     value_of(node) = value;
     return node;
@@ -110,13 +108,8 @@ class Meaning {
       refuse(part.at, "more than 200000 different operations", "at most 200000");
     const std::optional<long double> x = value_of(a);
     const std::optional<long double> y = b < 0 ? x : value_of(b);
-    if (part.op == Op::divide && y == 0.0L) {
-      const std::string divisor = syntax_.shown_part(syntax_[part.b]);
-      refuse(part.at,
-             syntax_.shown_part(syntax_[part.a]) + " divided by " + divisor + (divisor == "0" ? "" : ", which is 0"),
-             "a divisor other than 0");
-    }
-    return x && y ? checked(part, node, applied<long double>(part.op, *x, *y)) : node;
+    if (part.op == Op::divide && y == 0.0L) syntax_.refuse_division_by_zero(part);
+    return x && y ? checked(part, node, hamflow::applied<long double>(part.op, *x, *y)) : node;
   }
 
   // ---- sums and indices ----
@@ -159,8 +152,7 @@ class Meaning {
   std::int64_t whole(int i, const char* where, int depth = 0) const {
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const Part& part = syntax_[i];
-    if (depth > FormulaLimits::depth)
-      refuse(part.at, "more than 200 operations in " + std::string(where), "at most 200");
+    if (depth > deepest_expression) refuse(part.at, "more than 200 operations in " + std::string(where), "at most 200");
     std::int64_t value = 0;
     bool lost = false;
     if (part.kind == Kind::number) {
@@ -294,7 +286,7 @@ class Meaning {
     }
     listed.push_back("numbers, pi, functions such as sqrt(2)");
     candidates.emplace_back("pi");
-    for (const FunctionName& f : functions()) candidates.emplace_back(f.name);
+    for (const NamedFunction& f : named_functions()) candidates.emplace_back(f.name);
     std::string near = begun_by(name);
     if (near.empty()) near = nearest(name, candidates);
     // Short words are near everything: at least a letter has to be the same.
@@ -316,22 +308,14 @@ class Meaning {
 }  // namespace
 
 int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols, std::set<std::string>* whole) {
-  const Syntax syntax = read_syntax(text, symbols);
+  const Syntax syntax = read_syntax(text, {.characters = FormulaLimits::characters,
+                                           .operations = FormulaLimits::terms,
+                                           .names = symbols.names,
+                                           .what = symbols.what});
   return Meaning(graph, syntax, symbols, whole).read();
 }
 
 }  // namespace formula
-
-std::string refused_formula_name(const std::string& name) {
-  using namespace formula;
-  if (find_function(name) != nullptr) return "the name " + name + ", which is a function";
-  if (is_keyword(name)) return "the name " + name + ", which is a word of formulas";
-  if (name == "pi" || name == "Pi") return "the name " + name + ", which is a number";
-  if (name == "t") return "the name t, which is the time";
-  const bool word = !name.empty() && is_letter(name[0]) &&
-                    std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
-  return word ? "" : "the name \"" + shown(name) + "\", which is no word of letters, digits and _";
-}
 
 Formula::Formula() = default;
 

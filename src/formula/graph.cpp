@@ -1,26 +1,6 @@
 #include "hamflow/formula/graph.hpp"
 
-#include <array>
-
 namespace hamflow::formula {
-
-std::span<const FunctionName> functions() {
-  static constexpr std::array<FunctionName, 14> all{{{"sqrt", Op::sqrt},
-                                                     {"exp", Op::exp},
-                                                     {"log", Op::log},
-                                                     {"sin", Op::sin},
-                                                     {"cos", Op::cos},
-                                                     {"tan", Op::tan},
-                                                     {"asin", Op::asin},
-                                                     {"acos", Op::acos},
-                                                     {"atan", Op::atan},
-                                                     {"atan2", Op::atan2},
-                                                     {"sinh", Op::sinh},
-                                                     {"cosh", Op::cosh},
-                                                     {"tanh", Op::tanh},
-                                                     {"abs", Op::abs}}};
-  return all;
-}
 
 int Graph::node(Op op, int a, int b) {
   const auto key =

@@ -6,51 +6,6 @@ namespace hamflow::formula {
 
 namespace {
 
-Instruction instruction_of(Op op) {
-  switch (op) {
-    case Op::negate:
-      return Instruction::negate;
-    case Op::add:
-      return Instruction::add;
-    case Op::subtract:
-      return Instruction::subtract;
-    case Op::multiply:
-      return Instruction::multiply;
-    case Op::divide:
-      return Instruction::divide;
-    case Op::power:
-      return Instruction::power;
-    case Op::atan2:
-      return Instruction::arctangent2;
-    case Op::sqrt:
-      return Instruction::square_root;
-    case Op::exp:
-      return Instruction::exponential;
-    case Op::log:
-      return Instruction::logarithm;
-    case Op::sin:
-      return Instruction::sine;
-    case Op::cos:
-      return Instruction::cosine;
-    case Op::tan:
-      return Instruction::tangent;
-    case Op::asin:
-      return Instruction::arcsine;
-    case Op::acos:
-      return Instruction::arccosine;
-    case Op::atan:
-      return Instruction::arctangent;
-    case Op::sinh:
-      return Instruction::sinh;
-    case Op::cosh:
-      return Instruction::cosh;
-    case Op::tanh:
-      return Instruction::tanh;
-    default:
-      return Instruction::absolute;
-  }
-}
-
 class ProgramWriter {
  public:
   ProgramWriter(const Code& code, const std::vector<double>& constants) {
@@ -91,7 +46,7 @@ class ProgramWriter {
       const Operand size = whole(at(step.a), step.whole < 0 ? -step.whole : step.whole);
       return step.whole < 0 ? add(Instruction::divide, one(), size) : size;
     }
-    return step.b < 0 ? add(instruction_of(step.op), at(step.a)) : add(instruction_of(step.op), at(step.a), at(step.b));
+    return step.b < 0 ? add(step.op, at(step.a)) : add(step.op, at(step.a), at(step.b));
   }
 
   Program program_;

@@ -4,30 +4,15 @@ namespace hamflow::native {
 
 FunctionOfOne function_of_one(Instruction instruction) {
   switch (instruction) {
-    case Instruction::exponential:
-      return std::exp;
-    case Instruction::logarithm:
-      return std::log;
-    case Instruction::sine:
     case Instruction::sine_of_both:
-      return std::sin;
-    case Instruction::cosine:
+      return hamflow::sin;
     case Instruction::cosine_of_both:
-      return std::cos;
-    case Instruction::tangent:
-      return std::tan;
-    case Instruction::arcsine:
-      return std::asin;
-    case Instruction::arccosine:
-      return std::acos;
-    case Instruction::arctangent:
-      return std::atan;
-    case Instruction::sinh:
-      return std::sinh;
-    case Instruction::cosh:
-      return std::cosh;
-    case Instruction::tanh:
-      return std::tanh;
+      return hamflow::cos;
+#define HAMFLOW_CASE(name, symmetry, rule, series) \
+  case Instruction::name:                          \
+    return hamflow::name;
+      HAMFLOW_FUNCTIONS(HAMFLOW_CASE)
+#undef HAMFLOW_CASE
     default:
       return nullptr;
   }
@@ -35,10 +20,10 @@ FunctionOfOne function_of_one(Instruction instruction) {
 
 FunctionOfTwo function_of_two(Instruction instruction) {
   switch (instruction) {
-    case Instruction::arctangent2:
-      return std::atan2;
+    case Instruction::atan2:
+      return hamflow::atan2;
     case Instruction::power:
-      return std::pow;
+      return hamflow::pow;
     default:
       return nullptr;
   }

@@ -11,7 +11,8 @@ namespace hamflow::native {
 
 /// Whether it is a function of the system's library.
 constexpr bool is_call(Instruction instruction) {
-  return instruction >= Instruction::exponential && instruction != Instruction::of_lane;
+  return is_listed_function(instruction) || instruction == Instruction::atan2 || instruction == Instruction::power ||
+         instruction == Instruction::sine_of_both || instruction == Instruction::cosine_of_both;
 }
 
 constexpr bool is_commutative(Instruction instruction) {
@@ -20,20 +21,8 @@ constexpr bool is_commutative(Instruction instruction) {
 
 /// How many operands it has.
 constexpr int arity(Instruction instruction) {
-  switch (instruction) {
-    case Instruction::add:
-    case Instruction::subtract:
-    case Instruction::multiply:
-    case Instruction::divide:
-    case Instruction::larger:
-    case Instruction::arctangent2:
-    case Instruction::power:
-      return 2;
-    case Instruction::choose:
-      return 3;
-    default:
-      return 1;
-  }
+  if (instruction == Instruction::choose) return 3;
+  return takes_two(instruction) || instruction == Instruction::larger ? 2 : 1;
 }
 
 using FunctionOfOne = double (*)(double);
@@ -50,36 +39,21 @@ struct SineAndCosine {
 };
 inline SineAndCosine sine_and_cosine(double x) { return {std::sin(x), std::cos(x)}; }
 
-inline double called(Instruction instruction, double a, double b) {
-  if (const FunctionOfOne f = function_of_one(instruction)) return f(a);
-  return function_of_two(instruction)(a, b);
-}
-
 /// @param b, c ignored where there is no such operand
 inline double applied(Instruction instruction, double a, double b, double c = 0) {
   switch (instruction) {
-    case Instruction::add:
-      return a + b;
-    case Instruction::subtract:
-      return a - b;
-    case Instruction::multiply:
-      return a * b;
-    case Instruction::divide:
-      return a / b;
-    case Instruction::negate:
-      return -a;
-    case Instruction::absolute:
-      return std::fabs(a);
     case Instruction::larger:
       return a < b ? b : a;
-    case Instruction::square_root:
-      return std::sqrt(a);
     case Instruction::choose:
       return a > 0 ? b : c;
+    case Instruction::sine_of_both:
+      return std::sin(a);
+    case Instruction::cosine_of_both:
+      return std::cos(a);
     case Instruction::of_lane:
       return a;  // the only one
     default:
-      return called(instruction, a, b);
+      return hamflow::applied(instruction, a, b);
   }
 }
 

@@ -138,10 +138,10 @@ class LaneAssembler final : public LoopAssembler {
       case Instruction::negate:
         a_.vxorpd(to, a, in_table(0));
         return;
-      case Instruction::absolute:
+      case Instruction::abs:
         a_.vandpd(to, a, in_table(1));
         return;
-      case Instruction::square_root:
+      case Instruction::sqrt:
         a_.vsqrtpd(to, a);
         return;
       default:

@@ -30,11 +30,11 @@ void apply(Instruction instruction, std::size_t lanes, double* y, const double* 
       return each(lanes, y, a, b, [](double x, double z) { return x / z; });
     case Instruction::negate:
       return each(lanes, y, a, b, [](double x, double) { return -x; });
-    case Instruction::absolute:
+    case Instruction::abs:
       return each(lanes, y, a, b, [](double x, double) { return std::fabs(x); });
     case Instruction::larger:
       return each(lanes, y, a, b, [](double x, double z) { return x < z ? z : x; });
-    case Instruction::square_root:
+    case Instruction::sqrt:
       return each(lanes, y, a, b, [](double x, double) { return std::sqrt(x); });
     default:
       for (std::size_t i = 0; i < lanes; ++i) y[i] = applied(instruction, a[i], b[i], c[i]);

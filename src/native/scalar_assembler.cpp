@@ -89,10 +89,10 @@ class ScalarAssembler final : public LoopAssembler {
       case Instruction::negate:
         a_.vxorpd(to, a, x86::ptr(table_, sign_mask));
         return;
-      case Instruction::absolute:
+      case Instruction::abs:
         a_.vandpd(to, a, x86::ptr(table_, magnitude_mask));
         return;
-      case Instruction::square_root:
+      case Instruction::sqrt:
         a_.vsqrtsd(to, a, a);  // the other half from a as well: no wait for what `to` was
         return;
       default:

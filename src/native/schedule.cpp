@@ -16,13 +16,13 @@ int latency(Instruction instruction) {
     case Instruction::multiply:
       return 4;
     case Instruction::negate:
-    case Instruction::absolute:
+    case Instruction::abs:
     case Instruction::larger:
     case Instruction::choose:
       return 1;
     case Instruction::divide:
       return 13;
-    case Instruction::square_root:
+    case Instruction::sqrt:
       return 20;
     default:
       return 60;

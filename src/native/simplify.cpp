@@ -114,7 +114,7 @@ class Simplifier {
       case Instruction::negate:
         if (minus_a) return *minus_a;
         break;
-      case Instruction::absolute:
+      case Instruction::abs:
         if (minus_a) return result({instruction, *minus_a, {}});
         break;
       case Instruction::larger:

@@ -18,8 +18,8 @@ std::map<Number, Asked> asked_of(const Program& program) {
   for (std::size_t i = 0; i < program.operations.size(); ++i) {
     const auto& [instruction, a, b, c] = program.operations[i];
     Asked& here = all[{a.kind, a.index}];
-    if (instruction == Instruction::sine) here.sine = i;
-    if (instruction == Instruction::cosine) here.cosine = i;
+    if (instruction == Instruction::sin) here.sine = i;
+    if (instruction == Instruction::cos) here.cosine = i;
   }
   std::erase_if(all, [](const auto& entry) { return !entry.second.sine || !entry.second.cosine; });
   return all;
@@ -42,7 +42,7 @@ Program with_both(const Program& program) {
   for (std::size_t i = 0; i < program.operations.size(); ++i) {
     if (places[i]) continue;
     const auto& [instruction, a, b, c] = program.operations[i];
-    const bool is_one = instruction == Instruction::sine || instruction == Instruction::cosine;
+    const bool is_one = instruction == Instruction::sin || instruction == Instruction::cos;
     const auto both = is_one ? asked.find({a.kind, a.index}) : asked.end();
     if (both == asked.end()) {
       append(i, instruction);

@@ -27,9 +27,7 @@ class Translation {
 
   /// The companion of a function, which only Taylor coefficients need, is no operand.
   static bool has_second_operand(Operation operation) {
-    return operation == Operation::add || operation == Operation::subtract || operation == Operation::multiply ||
-           operation == Operation::divide || operation == Operation::larger || operation == Operation::arctangent2 ||
-           operation == Operation::power_of_two || operation == Operation::choose;
+    return takes_two(operation) || operation == Operation::larger || operation == Operation::choose;
   }
   void mark_needed() {
     needed_.assign(tape_.nodes.size(), false);
@@ -60,74 +58,31 @@ class Translation {
       place_[i] = {Operand::Kind::result, static_cast<std::uint32_t>(program_.operations.size())};
       program_.operations.push_back({instruction, a, b, c});
     };
-    const auto of_one = [&](Instruction instruction) { result(instruction, at(n.a)); };
-    const auto of_two = [&](Instruction instruction) { result(instruction, at(n.a), at(n.b)); };
     const auto with_constant = [&](Instruction instruction) { result(instruction, at(n.a), constant(n.constant)); };
     switch (n.operation) {
-      case Operation::input:
+      case Operation::symbol:
         place_[i] = {Operand::Kind::carried, static_cast<std::uint32_t>(inputs_++)};
         return;
-      case Operation::constant:
+      case Operation::number:
         place_[i] = constant(n.constant);
         return;
-      case Operation::add:
-        return of_two(Instruction::add);
-      case Operation::subtract:
-        return of_two(Instruction::subtract);
-      case Operation::negate:
-        return of_one(Instruction::negate);
       case Operation::add_constant:
         return with_constant(Instruction::add);
       case Operation::scale:
         return with_constant(Instruction::multiply);
       case Operation::divide_constant:
         return with_constant(Instruction::divide);
-      case Operation::multiply:
-        return of_two(Instruction::multiply);
       case Operation::square:
         return result(Instruction::multiply, at(n.a), at(n.a));
-      case Operation::divide:
-        return of_two(Instruction::divide);
       case Operation::invert:
         return result(Instruction::divide, constant(n.constant), at(n.a));
-      case Operation::square_root:
-        return of_one(Instruction::square_root);
-      case Operation::exponential:
-        return of_one(Instruction::exponential);
-      case Operation::logarithm:
-        return of_one(Instruction::logarithm);
-      case Operation::sine:
-        return of_one(Instruction::sine);
-      case Operation::cosine:
-        return of_one(Instruction::cosine);
-      case Operation::sinh:
-        return of_one(Instruction::sinh);
-      case Operation::cosh:
-        return of_one(Instruction::cosh);
-      case Operation::tangent:
-        return of_one(Instruction::tangent);
-      case Operation::tanh:
-        return of_one(Instruction::tanh);
-      case Operation::arctangent:
-        return of_one(Instruction::arctangent);
-      case Operation::power:
+      case Operation::power_constant:
         return with_constant(Instruction::power);
-      case Operation::absolute:
-        return of_one(Instruction::absolute);
-      case Operation::larger:
-        return of_two(Instruction::larger);
       case Operation::choose:
         return result(Instruction::choose, at(n.a), at(n.b), at(n.c));
-      case Operation::arcsine:
-        return of_one(Instruction::arcsine);
-      case Operation::arccosine:
-        return of_one(Instruction::arccosine);
-      case Operation::arctangent2:
-        return of_two(Instruction::arctangent2);
-      case Operation::power_of_two:
-        return of_two(Instruction::power);
+      default:
+        return has_second_operand(n.operation) ? result(n.operation, at(n.a), at(n.b)) : result(n.operation, at(n.a));
     }
-    throw std::logic_error("hamflow: an operation of a tape is not known to programs");
   }
 
   using Guard = Tape<double>::Guard;

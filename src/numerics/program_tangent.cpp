@@ -125,43 +125,10 @@ class Differentiation {
       case I::negate:
         dy = apply(I::negate, da);
         return true;
-      case I::square_root:
+      case I::sqrt:
         dy = apply(I::divide, da, apply(I::add, y, y));
         return true;
-      case I::exponential:
-        dy = times(y, da);
-        return true;
-      case I::logarithm:
-        dy = apply(I::divide, da, a);
-        return true;
-      case I::sine:
-        dy = times(apply(I::cosine, a), da);
-        return true;
-      case I::cosine:
-        dy = apply(I::negate, times(apply(I::sine, a), da));
-        return true;
-      case I::tangent:  // 1 + y^2
-        dy = times(apply(I::add, constant(1), apply(I::multiply, y, y)), da);
-        return true;
-      case I::arcsine:
-        dy = apply(I::divide, da, root_of_one_minus_square(a));
-        return true;
-      case I::arccosine:
-        dy = apply(I::negate, apply(I::divide, da, root_of_one_minus_square(a)));
-        return true;
-      case I::arctangent:
-        dy = apply(I::divide, da, apply(I::add, constant(1), apply(I::multiply, a, a)));
-        return true;
-      case I::sinh:
-        dy = times(apply(I::cosh, a), da);
-        return true;
-      case I::cosh:
-        dy = times(apply(I::sinh, a), da);
-        return true;
-      case I::tanh:
-        dy = times(apply(I::subtract, constant(1), apply(I::multiply, y, y)), da);
-        return true;
-      case I::arctangent2: {  // of a/b: (b da - a db)/(a^2 + b^2)
+      case I::atan2: {  // of a/b: (b da - a db)/(a^2 + b^2)
         const Operand square = apply(I::add, apply(I::multiply, a, a), apply(I::multiply, b, b));
         dy = apply(I::divide, minus(times(b, da), times(a, db)), square);
         return true;
@@ -170,20 +137,32 @@ class Differentiation {
         if (!is_zero(db)) return false;
         dy = times(apply(I::multiply, b, apply(I::power, a, apply(I::subtract, b, constant(1)))), da);
         return true;
-      case I::absolute:
-      case I::larger:
-      case I::sine_of_both:
-      case I::cosine_of_both:
-      case I::choose:  // above
-      case I::of_lane:
-        return false;
+      default: {
+        if (!is_listed_function(instruction)) return false;
+        const DerivativeRule<Line> rule =
+            derivative_rule(instruction, Line{this, a}, Line{this, y}, Line{this, constant(1)});
+        dy = apply(rule.divides ? I::divide : I::multiply, da, rule.by.at);
+        return true;
+      }
     }
-    return false;
   }
-  Operand root_of_one_minus_square(Operand a) {
-    return apply(Instruction::square_root,
-                 apply(Instruction::subtract, constant(1), apply(Instruction::multiply, a, a)));
-  }
+
+  /// A value of the program as a number, for the rules of derivatives.
+  struct Line {
+    Differentiation* program;
+    Operand at;
+
+    Line made(Instruction instruction, Operand b = {}) const { return {program, program->apply(instruction, at, b)}; }
+    friend Line operator+(const Line& a, const Line& b) { return a.made(Instruction::add, b.at); }
+    friend Line operator-(const Line& a, const Line& b) { return a.made(Instruction::subtract, b.at); }
+    friend Line operator*(const Line& a, const Line& b) { return a.made(Instruction::multiply, b.at); }
+    friend Line operator-(const Line& a) { return a.made(Instruction::negate); }
+    friend Line sqrt(const Line& a) { return a.made(Instruction::sqrt); }
+#define HAMFLOW_LINE_FUNCTION(name, symmetry, rule, series) \
+  friend Line name(const Line& a) { return a.made(Instruction::name); }
+    HAMFLOW_FUNCTIONS(HAMFLOW_LINE_FUNCTION)
+#undef HAMFLOW_LINE_FUNCTION
+  };
 
   const Program& in_;
   std::span<const bool> moves_;

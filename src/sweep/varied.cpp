@@ -79,12 +79,12 @@ std::string written_out(const formula::Graph& graph, int at, const std::vector<s
   if (node.op == Op::pi) return "pi";
   if (node.op == Op::symbol) return "(" + values.at(static_cast<std::size_t>(node.a)) + ")";
   const std::string a = written_out(graph, node.a, values);
-  const std::string b = formula::takes_two(node.op) ? written_out(graph, node.b, values) : "";
+  const std::string b = takes_two(node.op) ? written_out(graph, node.b, values) : "";
   refuse_length(a.size() + b.size());
   if (node.op == Op::negate) return "(-" + a + ")";
   if (node.op == Op::power) return "(" + a + "^" + b + ")";
-  for (const formula::FunctionName& function : formula::functions()) {
-    if (function.op == node.op) return std::string(function.name) + "(" + a + (b.empty() ? "" : ", " + b) + ")";
+  for (const NamedFunction& function : named_functions()) {
+    if (function.operation == node.op) return std::string(function.name) + "(" + a + (b.empty() ? "" : ", " + b) + ")";
   }
   return a;
 }

@@ -156,7 +156,7 @@ TEST(LaneLoop, WhatFollowsFromConstantsAloneIsComputedOnce) {
   p.constants = {0, 1};
   p.operations = {{Instruction::multiply, {Kind::constant, 0}, {Kind::constant, 0}},
                   {Instruction::add, {Kind::result, 0}, {Kind::constant, 1}},
-                  {Instruction::square_root, {Kind::result, 1}, {}},
+                  {Instruction::sqrt, {Kind::result, 1}, {}},
                   {Instruction::add, {Kind::carried, 0}, {Kind::result, 2}}};
   p.outputs = {{Kind::result, 3}};
   const bool differs[] = {true, false};

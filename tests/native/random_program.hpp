@@ -121,11 +121,14 @@ inline RandomCase random_case(Draw& draw, const RandomForm& form) {
   const bool has_numbers = form.values + form.constants > 0;
   for (std::size_t i = 0; has_numbers && i < form.operations; ++i) {
     for (int attempt = form.ordinary ? 0 : 29; attempt < 30; ++attempt) {
-      constexpr auto first_call = static_cast<std::size_t>(Instruction::exponential);
-      const auto instruction = static_cast<Instruction>(
-          draw.chance(form.calls)
-              ? first_call + draw.below(static_cast<std::size_t>(Instruction::power) + 1 - first_call)
-              : draw.below(first_call));
+      static constexpr Instruction arithmetic[] = {Instruction::add,    Instruction::subtract, Instruction::multiply,
+                                                   Instruction::divide, Instruction::negate,   Instruction::abs,
+                                                   Instruction::larger, Instruction::sqrt,     Instruction::choose};
+#define HAMFLOW_ENTRY(name, symmetry, rule, series) Instruction::name,
+      static constexpr Instruction calls[] = {HAMFLOW_FUNCTIONS(HAMFLOW_ENTRY) Instruction::atan2, Instruction::power};
+#undef HAMFLOW_ENTRY
+      const Instruction instruction =
+          draw.chance(form.calls) ? calls[draw.below(std::size(calls))] : arithmetic[draw.below(std::size(arithmetic))];
       const int arity = native::arity(instruction);
       const Operand a = operand(), b = arity > 1 ? operand() : Operand{}, c = arity > 2 ? operand() : Operand{};
       const double x = native::applied(instruction, value(a), value(b), value(c));

@@ -34,7 +34,7 @@ Program kepler_verlet(double h) {
   const Operand x = add(I::add, carried(0), add(I::multiply, constant(0), half_x));
   const Operand y = add(I::add, carried(1), add(I::multiply, constant(0), half_y));
   const Operand u = add(I::add, add(I::multiply, x, x), add(I::multiply, y, y));
-  const Operand slope = add(I::negate, add(I::divide, constant(2), add(I::multiply, u, add(I::square_root, u))));
+  const Operand slope = add(I::negate, add(I::divide, constant(2), add(I::multiply, u, add(I::sqrt, u))));
   const Operand fx = add(I::multiply, slope, x), fy = add(I::multiply, slope, y);
   const Operand px = add(I::add, half_x, add(I::multiply, constant(1), fx));
   const Operand py = add(I::add, half_y, add(I::multiply, constant(1), fy));
@@ -200,7 +200,7 @@ TEST(StepLoop, IsInterpretedWhereExecutableMemoryIsRefused) {
     Program p;
     p.outputs = {result(99999)};
     for (std::uint32_t i = 0; i < 100000; ++i)  // more than what may be left of memory had before
-      p.operations.push_back({I::sine, i == 0 ? carried(0) : result(i - 1), {}});
+      p.operations.push_back({I::sin, i == 0 ? carried(0) : result(i - 1), {}});
     signal(SIGXFSZ, SIG_IGN);
     const rlimit none{0, 0};
     setrlimit(RLIMIT_FSIZE, &none);
@@ -231,12 +231,12 @@ TEST(StepLoop, SineAndCosineOfOneNumber) {
     return result(static_cast<std::uint32_t>(p.operations.size() - 1));
   };
   const Operand difference = add(I::subtract, carried(0), carried(1));
-  const Operand cosine0 = add(I::cosine, carried(0));
-  const Operand sine1 = add(I::sine, difference);
+  const Operand cosine0 = add(I::cos, carried(0));
+  const Operand sine1 = add(I::sin, difference);
   const Operand scaled = add(I::multiply, cosine0, sine1);
-  const Operand sine0 = add(I::sine, carried(0));
-  const Operand cosine1 = add(I::cosine, difference);
-  const Operand only = add(I::sine, carried(1));
+  const Operand sine0 = add(I::sin, carried(0));
+  const Operand cosine1 = add(I::cos, difference);
+  const Operand only = add(I::sin, carried(1));
   const Operand more = add(I::add, add(I::multiply, sine0, cosine1), add(I::multiply, only, scaled));
   p.outputs = {add(I::add, carried(0), more), add(I::subtract, carried(1), scaled), cosine1, sine0};
   p.checks = {{Program::Check::Kind::finite, sine1, {}}, {Program::Check::Kind::finite, sine0, {}}};

@@ -52,19 +52,19 @@ TEST(ProgramTangent, EveryInstructionHasTheSlopeOfADifference) {
                                                                                             {I::multiply, true},
                                                                                             {I::divide, true},
                                                                                             {I::negate, false},
-                                                                                            {I::square_root, false},
-                                                                                            {I::exponential, false},
-                                                                                            {I::logarithm, false},
-                                                                                            {I::sine, false},
-                                                                                            {I::cosine, false},
-                                                                                            {I::tangent, false},
-                                                                                            {I::arcsine, false},
-                                                                                            {I::arccosine, false},
-                                                                                            {I::arctangent, false},
+                                                                                            {I::sqrt, false},
+                                                                                            {I::exp, false},
+                                                                                            {I::log, false},
+                                                                                            {I::sin, false},
+                                                                                            {I::cos, false},
+                                                                                            {I::tan, false},
+                                                                                            {I::asin, false},
+                                                                                            {I::acos, false},
+                                                                                            {I::atan, false},
                                                                                             {I::sinh, false},
                                                                                             {I::cosh, false},
                                                                                             {I::tanh, false},
-                                                                                            {I::arctangent2, true},
+                                                                                            {I::atan2, true},
                                                                                             {I::power, true}}) {
     SCOPED_TRACE(static_cast<int>(instruction));
     const Program program = of(instruction, two);
@@ -86,10 +86,10 @@ TEST(ProgramTangent, EveryInstructionHasTheSlopeOfADifference) {
 
 TEST(ProgramTangent, SizesAndLargerNumbersHaveNoSlopeButWhatDoesNotMoveMayHaveThem) {
   const bool moves[] = {true};
-  EXPECT_FALSE(with_tangents(of(Instruction::absolute, false), moves, 1));
+  EXPECT_FALSE(with_tangents(of(Instruction::abs, false), moves, 1));
   EXPECT_FALSE(with_tangents(of(Instruction::larger, true), moves, 1));
   const bool rests[] = {false};
-  EXPECT_TRUE(with_tangents(of(Instruction::absolute, false), rests, 1));
+  EXPECT_TRUE(with_tangents(of(Instruction::abs, false), rests, 1));
 }
 
 TEST(ProgramTangent, BothOperandsAndExchangedValues) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/operation.hpp"
 #include "hamflow/core/vector.hpp"
 
 namespace hamflow {
@@ -69,6 +70,24 @@ constexpr Dual<T, N> chain(const Dual<T, N>& x, const T& value, const T& factor)
   Dual<T, N> y(value);
   for (std::size_t k = 0; k < N; ++k) y.slope[k] = factor * x.slope[k];
   return y;
+}
+/// The same by the row of a function (core/operation.hpp).
+template <class T, std::size_t N>
+Dual<T, N> follow_rule(Operation function, const Dual<T, N>& x, const T& value) {
+  const DerivativeRule<T> rule = derivative_rule(function, x.value, value, T(1));
+  return chain(x, value, rule.divides ? T(T(1) / rule.by) : rule.by);
+}
+/// Whether no derivative is carried.
+template <class S>
+bool carries_nothing(const S& x) {
+  if constexpr (IsDual<S>::value) {
+    for (const auto& slope : x.slope) {
+      if (!carries_nothing(slope) || !(value_of(slope) == base_scalar<S>(0))) return false;
+    }
+    return carries_nothing(x.value);
+  } else {
+    return true;
+  }
 }
 }  // namespace detail
 
@@ -159,45 +178,13 @@ Dual<T, N> sqrt(const Dual<T, N>& x) {
   const T root = sqrt(x.value);
   return detail::chain(x, root, T(1) / (T(2) * root));
 }
-template <class T, std::size_t N>
-Dual<T, N> exp(const Dual<T, N>& x) {
-  const T e = exp(x.value);
-  return detail::chain(x, e, e);
-}
-template <class T, std::size_t N>
-Dual<T, N> log(const Dual<T, N>& x) {
-  return detail::chain(x, T(log(x.value)), T(1) / x.value);
-}
-template <class T, std::size_t N>
-Dual<T, N> sin(const Dual<T, N>& x) {
-  return detail::chain(x, T(sin(x.value)), T(cos(x.value)));
-}
-template <class T, std::size_t N>
-Dual<T, N> cos(const Dual<T, N>& x) {
-  return detail::chain(x, T(cos(x.value)), T(-sin(x.value)));
-}
-template <class T, std::size_t N>
-Dual<T, N> tan(const Dual<T, N>& x) {
-  const T t = tan(x.value);
-  return detail::chain(x, t, T(1) + t * t);
-}
-template <class T, std::size_t N>
-Dual<T, N> atan(const Dual<T, N>& x) {
-  return detail::chain(x, T(atan(x.value)), T(1) / (T(1) + x.value * x.value));
-}
-template <class T, std::size_t N>
-Dual<T, N> sinh(const Dual<T, N>& x) {
-  return detail::chain(x, T(sinh(x.value)), T(cosh(x.value)));
-}
-template <class T, std::size_t N>
-Dual<T, N> cosh(const Dual<T, N>& x) {
-  return detail::chain(x, T(cosh(x.value)), T(sinh(x.value)));
-}
-template <class T, std::size_t N>
-Dual<T, N> tanh(const Dual<T, N>& x) {
-  const T t = tanh(x.value);
-  return detail::chain(x, t, T(1) - t * t);
-}
+#define HAMFLOW_DUAL_FUNCTION(name, symmetry, rule, series)           \
+  template <class T, std::size_t N>                                   \
+  Dual<T, N> name(const Dual<T, N>& x) {                              \
+    return detail::follow_rule(Operation::name, x, T(name(x.value))); \
+  }
+HAMFLOW_FUNCTIONS(HAMFLOW_DUAL_FUNCTION)
+#undef HAMFLOW_DUAL_FUNCTION
 template <class T, std::size_t N>
 Dual<T, N> abs(const Dual<T, N>& x) {
   return x.value < T(0) ? -x : x;
@@ -206,6 +193,20 @@ Dual<T, N> abs(const Dual<T, N>& x) {
 template <class T, std::size_t N>
 Dual<T, N> pow(const Dual<T, N>& x, const base_scalar<T>& y) {
   return detail::chain(x, T(pow(x.value, y)), T(y) * T(pow(x.value, y - base_scalar<T>(1))));
+}
+/// x^y; by way of the logarithm where y carries derivatives.
+template <class T, std::size_t N>
+Dual<T, N> pow(const Dual<T, N>& x, const Dual<T, N>& y) {
+  if (detail::carries_nothing(y)) return pow(x, value_of(y));
+  return exp(y * log(x));
+}
+/// The angle of (x, y).
+template <class T, std::size_t N>
+Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
+  const T square = x.value * x.value + y.value * y.value;
+  Dual<T, N> angle(T(atan2(y.value, x.value)));
+  for (std::size_t k = 0; k < N; ++k) angle.slope[k] = (x.value * y.slope[k] - y.value * x.slope[k]) / square;
+  return angle;
 }
 
 }  // namespace hamflow

@@ -45,6 +45,17 @@ double binary_logarithm(const R& x) {
   return static_cast<double>(std::log2(static_cast<long double>(abs(x))));
 }
 
+/// x^n for a whole n, by squaring; n = 0 gives 1.
+template <class S>
+S whole_power(const S& x, int n) {
+  if (n < 0) return S(1) / whole_power(x, -n);
+  if (n == 0) return S(1);
+  if (n == 1) return x;
+  const S half = whole_power(x, n / 2);
+  const S even = half * half;
+  return n % 2 == 1 ? S(even * x) : even;
+}
+
 /// a > 0 ? b : c. Recordings have it without a branch (core/tape.hpp).
 template <class S>
 S choose(const S& a, const S& b, const S& c) {

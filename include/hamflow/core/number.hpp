@@ -1,5 +1,5 @@
 // **Numbers as people write them**: "0.1", "1/3", "2*pi/100", read in any arithmetic to its full precision. The text is
-// read once, without an arithmetic (src/core/number.cpp); its operations are then carried out in R.
+// read once, without an arithmetic (core/syntax.hpp); its operations are then carried out in R.
 //
 // Every error has the form
 //     found "2*pi/0", column 5: 2*pi divided by 0; allowed a divisor other than 0
@@ -16,6 +16,8 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/operation.hpp"
+#include "hamflow/core/syntax.hpp"
 
 namespace hamflow {
 
@@ -37,106 +39,6 @@ R pi_value() {
   return parse_decimal<R>("3.14159265358979323846264338327950288419716939937510582097494459");
 }
 
-namespace detail {
-
-enum class NumberAction : unsigned char {
-  literal,
-  pi,
-  negate,
-  add,
-  subtract,
-  multiply,
-  divide,
-  power,
-  atan2,
-  sqrt,
-  exp,
-  log,
-  sin,
-  cos,
-  tan,
-  asin,
-  acos,
-  atan,
-  sinh,
-  cosh,
-  tanh,
-  abs
-};
-constexpr bool takes_two(NumberAction action) { return action >= NumberAction::add && action <= NumberAction::atan2; }
-
-/// One action on a stack of numbers.
-struct NumberStep {
-  NumberAction action;
-  std::size_t at;     // of the literal, the operator or the function in the text: errors point there
-  std::size_t begin;  // [begin, end): the part of the text whose value this is
-  std::size_t end;
-};
-/// A text, and what has to be done one after the other to get its value.
-struct NumberFormula {
-  std::string_view text;
-  std::vector<NumberStep> steps;
-};
-
-/// @throws Error when the text is no formula of numbers
-NumberFormula read_number(std::string_view text);
-/// @throws Error always: the divisor of a division is 0
-[[noreturn]] void refuse_division_by_zero(const NumberFormula& formula, const NumberStep& step);
-/// @throws Error always: the value of a step is infinite, or not a number
-[[noreturn]] void refuse_value(const NumberFormula& formula, const NumberStep& step, bool infinite);
-
-template <class R>
-R carried_out(NumberAction action, const R& x, const R& y) {
-  switch (action) {
-    case NumberAction::negate:
-      return -x;
-    case NumberAction::add:
-      return x + y;
-    case NumberAction::subtract:
-      return x - y;
-    case NumberAction::multiply:
-      return x * y;
-    case NumberAction::divide:
-      return x / y;
-    case NumberAction::power:
-      return pow(x, y);
-    case NumberAction::atan2:
-      return atan2(x, y);
-    case NumberAction::sqrt:
-      return sqrt(x);
-    case NumberAction::exp:
-      return exp(x);
-    case NumberAction::log:
-      return log(x);
-    case NumberAction::sin:
-      return sin(x);
-    case NumberAction::cos:
-      return cos(x);
-    case NumberAction::tan:
-      return tan(x);
-    case NumberAction::asin:
-      return asin(x);
-    case NumberAction::acos:
-      return acos(x);
-    case NumberAction::atan:
-      return atan(x);
-    case NumberAction::sinh:
-      return sinh(x);
-    case NumberAction::cosh:
-      return cosh(x);
-    case NumberAction::tanh:
-      return tanh(x);
-    case NumberAction::abs:
-      return abs(x);
-    case NumberAction::literal:
-    case NumberAction::pi:
-      break;
-  }
-  return x;
-}
-
-}  // namespace detail
-
 /// The value of a formula of numbers in R: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), pi or Pi, parentheses, and the
 /// functions sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs. At most 10^6 characters, 10^4
 /// operations, and 200 nested signs, powers and parentheses.
@@ -144,26 +46,24 @@ R carried_out(NumberAction action, const R& x, const R& y) {
 /// real number in R
 template <class R>
 R evaluate_number(std::string_view text) {
-  const detail::NumberFormula formula = detail::read_number(text);
+  const Syntax syntax = read_syntax(text, {.only_numbers = true, .characters = 1'000'000, .operations = 10'000});
   std::vector<R> stack;
-  for (const detail::NumberStep& step : formula.steps) {
-    if (step.action == detail::NumberAction::literal) {
-      stack.push_back(parse_decimal<R>(text.substr(step.begin, step.end - step.begin)));
-    } else if (step.action == detail::NumberAction::pi) {
+  for (const Part& part : syntax.parts) {
+    if (part.kind == Part::Kind::number) {
+      stack.push_back(parse_decimal<R>(part.word));
+    } else if (part.kind == Part::Kind::pi) {
       stack.push_back(pi_value<R>());
     } else {
       R second{};
-      if (detail::takes_two(step.action)) {
+      if (takes_two(part.op)) {
         second = stack.back();
         stack.pop_back();
-        if (step.action == detail::NumberAction::divide && second == R(0)) {
-          detail::refuse_division_by_zero(formula, step);
-        }
+        if (part.op == Operation::divide && second == R(0)) syntax.refuse_division_by_zero(part);
       }
-      stack.back() = detail::carried_out<R>(step.action, stack.back(), second);
+      stack.back() = applied<R>(part.op, stack.back(), second);
     }
     const R& value = stack.back();
-    if (!(abs(value) <= std::numeric_limits<R>::max())) detail::refuse_value(formula, step, value == value);
+    if (!(abs(value) <= std::numeric_limits<R>::max())) syntax.refuse_value(part, value == value);
   }
   return stack.back();
 }

@@ -25,42 +25,13 @@
 #include "hamflow/core/dual.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/operation.hpp"
 
 namespace hamflow {
 
-enum class Operation {
-  input,            // a coordinate of the state
-  constant,         // c
-  add,              // a + b
-  subtract,         // a - b
-  negate,           // -a
-  add_constant,     // a + c
-  scale,            // a c
-  divide_constant,  // a/c
-  multiply,         // a b
-  square,           // a^2
-  divide,           // a/b
-  invert,           // c/a
-  square_root,
-  exponential,
-  logarithm,
-  sine,        // of a; b is the node of the cosine
-  cosine,      // of a; b is the node of the sine
-  sinh,        // of a; b is the node of cosh
-  cosh,        // of a; b is the node of sinh
-  tangent,     // of a; b is the node of its square
-  tanh,        // likewise
-  arctangent,  // of a; b is the node of a^2
-  power,       // a^c
-  absolute,    // |a|, in exact recordings, as what follows
-  larger,      // a < b ? b : a
-  choose,      // a > 0 ? b : c
-  arcsine,
-  arccosine,
-  arctangent2,  // atan2(a, b)
-  power_of_two  // a^b, of two numbers
-};
-
+/// Of functions with one operand b is the node that their Taylor coefficients need: of sin the cosine, of cosh the sinh
+/// and the reverse, of tan and tanh the square of the node itself, of atan that of the operand.
 struct TapeNode {
   Operation operation;
   int a = -1;         // nodes
@@ -202,7 +173,7 @@ class Recorder {
 
   Trace<R> input(const R& value) {
     ++tape_.inputs;
-    return push({.operation = Operation::input}, value);
+    return push({.operation = Operation::symbol}, value);
   }
   [[gnu::noinline]] Trace<R> of_two(Operation operation, int a, int b, const R& value) {
     if ((operation == Operation::add || operation == Operation::multiply) && b < a) std::swap(a, b);
@@ -245,7 +216,7 @@ class Recorder {
     for (const Trace<R>& output : outputs) {
       tape_.outputs.push_back(
           output.is_constant()
-              ? push({.operation = Operation::constant, .constant = constant(output.value)}, output.value).node
+              ? push({.operation = Operation::number, .constant = constant(output.value)}, output.value).node
               : output.node);
     }
     drop_unused();
@@ -254,7 +225,7 @@ class Recorder {
 
  private:
   int node_of(const Trace<R>& x) {
-    return x.is_constant() ? push({.operation = Operation::constant, .constant = constant(x.value)}, x.value).node
+    return x.is_constant() ? push({.operation = Operation::number, .constant = constant(x.value)}, x.value).node
                            : x.node;
   }
   int size() const { return static_cast<int>(tape_.nodes.size()); }
@@ -450,32 +421,24 @@ template <class R>
 Trace<R> recorded(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
   return (a.is_constant() ? b : a).recorder->of_any_two(operation, a, b, value);
 }
-/// x^n for n > 0.
-template <class R>
-Trace<R> whole_power(const Trace<R>& x, int n) {
-  if (n == 1) return x;
-  const Trace<R> half = whole_power(x, n / 2);
-  const Trace<R> even = half * half;
-  return n % 2 == 1 ? even * x : even;
-}
 }  // namespace detail
 
 template <class R>
 Trace<R> sqrt(const Trace<R>& x) {
-  return detail::recorded(Operation::square_root, x, [](const R& v) { return R(sqrt(v)); });
+  return detail::recorded(Operation::sqrt, x, [](const R& v) { return R(sqrt(v)); });
 }
 template <class R>
 Trace<R> exp(const Trace<R>& x) {
-  return detail::recorded(Operation::exponential, x, [](const R& v) { return R(exp(v)); });
+  return detail::recorded(Operation::exp, x, [](const R& v) { return R(exp(v)); });
 }
 template <class R>
 Trace<R> log(const Trace<R>& x) {
-  return detail::recorded(Operation::logarithm, x, [](const R& v) { return R(log(v)); });
+  return detail::recorded(Operation::log, x, [](const R& v) { return R(log(v)); });
 }
 template <class R>
 Trace<R> sin(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(sin(x.value)));
-  return x.recorder->pair(Operation::sine, Operation::cosine, x.node, R(sin(x.value)), R(cos(x.value)));
+  return x.recorder->pair(Operation::sin, Operation::cos, x.node, R(sin(x.value)), R(cos(x.value)));
 }
 template <class R>
 Trace<R> cos(const Trace<R>& x) {
@@ -495,7 +458,7 @@ Trace<R> cosh(const Trace<R>& x) {
 template <class R>
 Trace<R> tan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(tan(x.value)));
-  return x.recorder->with_square(Operation::tangent, x.node, R(tan(x.value)));
+  return x.recorder->with_square(Operation::tan, x.node, R(tan(x.value)));
 }
 template <class R>
 Trace<R> tanh(const Trace<R>& x) {
@@ -505,24 +468,23 @@ Trace<R> tanh(const Trace<R>& x) {
 template <class R>
 Trace<R> atan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(atan(x.value)));
-  return x.recorder->of_two(Operation::arctangent, x.node, (x * x).node, R(atan(x.value)));
+  return x.recorder->of_two(Operation::atan, x.node, (x * x).node, R(atan(x.value)));
 }
 /// x^y for a constant exponent; whole exponents are products, so that x may be 0.
 template <class R>
 Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
   if (x.is_constant()) return Trace<R>(R(pow(x.value, y)));
-  if (x.is_exact()) return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
+  if (x.is_exact()) return x.recorder->with_constant(Operation::power_constant, x.node, R(y), R(pow(x.value, y)));
   const double exponent = static_cast<double>(y);
   const int whole = exponent >= -64 && exponent <= 64 ? static_cast<int>(exponent) : 0;
   if (detail::identical(y, base_scalar<R>(whole))) {
-    if (whole == 0) return Trace<R>(R(1));
-    return whole > 0 ? detail::whole_power(x, whole) : Trace<R>(R(1)) / detail::whole_power(x, -whole);
+    return whole_power(x, whole);
   }
-  return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
+  return x.recorder->with_constant(Operation::power_constant, x.node, R(y), R(pow(x.value, y)));
 }
 template <class R>
 Trace<R> abs(const Trace<R>& x) {
-  if (x.is_exact()) return detail::recorded(Operation::absolute, x, [](const R& v) { return R(abs(v)); });
+  if (x.is_exact()) return detail::recorded(Operation::abs, x, [](const R& v) { return R(abs(v)); });
   if (!x.is_constant()) Trace<R>::refuse();
   return Trace<R>(R(abs(x.value)));
 }
@@ -540,31 +502,52 @@ Trace<R> choose(const Trace<R>& a, const Trace<R>& b, const Trace<R>& c) {
   if (!a.is_exact()) Trace<R>::refuse();
   return a.recorder->choice(a.node, b, c, first ? b.value : c.value);
 }
-// Of exact recordings and of constants; Taylor series have no such coefficients, and compose them of others
-// (formula/operations.hpp).
+/// Exact recordings have the function itself; Taylor coefficients are those of functions of which it is composed.
 template <class R>
 Trace<R> asin(const Trace<R>& x) {
-  if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
-  return detail::recorded(Operation::arcsine, x, [](const R& v) { return R(asin(v)); });
+  if (!x.is_constant() && !x.is_exact()) return atan(x / sqrt((Trace<R>(R(1)) - x) * (Trace<R>(R(1)) + x)));
+  return detail::recorded(Operation::asin, x, [](const R& v) { return R(asin(v)); });
 }
 template <class R>
 Trace<R> acos(const Trace<R>& x) {
-  if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
-  return detail::recorded(Operation::arccosine, x, [](const R& v) { return R(acos(v)); });
+  const Trace<R> one(R(1));
+  if (!x.is_constant() && !x.is_exact()) return Trace<R>(R(2)) * atan(sqrt((one - x) / (one + x)));
+  return detail::recorded(Operation::acos, x, [](const R& v) { return R(acos(v)); });
 }
+/// The angle of (x, y), composed of either half angle formula. The branch is that of the state at the recording; both
+/// are the same function where neither divides by 0. A test for equality tells where the recorded one does: there it is
+/// recorded anew.
 template <class R>
 Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
   const R value = atan2(y.value, x.value);
   if (y.is_constant() && x.is_constant()) return Trace<R>(value);
-  if (!y.is_exact() && !x.is_exact()) Trace<R>::refuse();
-  return detail::recorded(Operation::arctangent2, y, x, value);
+  if (y.is_exact() || x.is_exact()) return detail::recorded(Operation::atan2, y, x, value);
+  const Trace<R> two(R(2));
+  const Trace<R> r = sqrt(x * x + y * y);
+  const Trace<R> sum = r + x;
+  if (!(x.value < R(0)) && !(sum == Trace<R>(R(0)))) return two * atan(y / sum);
+  if (y == Trace<R>(R(0))) return Trace<R>(pi_value<R>()) + two * atan(y / (x - r));  // the same, from the other side
+  return two * atan((r - x) / y);
 }
 template <class R>
 Trace<R> pow(const Trace<R>& x, const Trace<R>& y) {
   if (y.is_constant() && !y.is_exact()) return pow(x, y.value);
-  if (!x.is_exact() && !y.is_exact()) Trace<R>::refuse();
-  return detail::recorded(Operation::power_of_two, x, y, R(pow(x.value, y.value)));
+  if (!x.is_exact() && !y.is_exact()) return exp(y * log(x));
+  return detail::recorded(Operation::power, x, y, R(pow(x.value, y.value)));
 }
+
+#define HAMFLOW_TRACE_OF_known(name)
+#define HAMFLOW_TRACE_OF_unknown(name)                                                  \
+  template <class R>                                                                    \
+  Trace<R> name(const Trace<R>& x) {                                                    \
+    if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();                          \
+    return detail::recorded(Operation::name, x, [](const R& v) { return R(name(v)); }); \
+  }
+#define HAMFLOW_TRACE_OF(name, symmetry, rule, series) HAMFLOW_TRACE_OF_##series(name)
+HAMFLOW_FUNCTIONS(HAMFLOW_TRACE_OF)
+#undef HAMFLOW_TRACE_OF
+#undef HAMFLOW_TRACE_OF_unknown
+#undef HAMFLOW_TRACE_OF_known
 
 }  // namespace hamflow
 

@@ -75,7 +75,7 @@ class MachineCode {
 template <class S>
 S applied(const CodeStep& step, const S* values) {
   if (step.op == Op::power && step.b < 0) return whole_power(values[step.a], step.whole);
-  return applied(step.op, values[step.a], values[step.b < 0 ? step.a : step.b]);
+  return hamflow::applied(step.op, values[step.a], values[step.b < 0 ? step.a : step.b]);
 }
 
 /// The constants of a code, computed in R.   @param value_of(symbol) the value of a fixed symbol

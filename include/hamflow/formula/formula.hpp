@@ -30,12 +30,9 @@ struct FormulaSymbols {
   std::string what = "names";
 };
 
-/// Why something cannot be called `name`: it is a function, `let`, `in`, `sum`, `pi`, `t`, or no word. Empty if it can.
-std::string refused_formula_name(const std::string& name);
-/// How long and how deep a formula may be.
+/// How long a formula may be.
 struct FormulaLimits {
   static constexpr std::size_t characters = 100'000;
-  static constexpr int depth = 200;              // nested parentheses, signs, powers, sums, let
   static constexpr std::size_t terms = 300'000;  // operations, those of all terms of sums counted
   static constexpr int nodes = 200'000;          // different operations
 };

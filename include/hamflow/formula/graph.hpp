@@ -3,48 +3,16 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "hamflow/core/operation.hpp"
+
 namespace hamflow::formula {
 
-enum class Op : std::uint8_t {
-  number,  // a decimal text
-  pi,
-  symbol,  // a value that is given when the formula is evaluated
-  negate,
-  add,
-  subtract,
-  multiply,
-  divide,
-  power,
-  atan2,
-  sqrt,
-  exp,
-  log,
-  sin,
-  cos,
-  tan,
-  asin,
-  acos,
-  atan,
-  sinh,
-  cosh,
-  tanh,
-  abs
-};
-constexpr bool is_leaf(Op op) { return op <= Op::symbol; }
-constexpr bool takes_two(Op op) { return op >= Op::add && op <= Op::atan2; }
-
-struct FunctionName {
-  std::string_view name;
-  Op op;
-};
-/// The functions by their names.
-std::span<const FunctionName> functions();
+using Op = Operation;
 
 struct Node {
   Op op;

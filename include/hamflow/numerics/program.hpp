@@ -9,39 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "hamflow/core/operation.hpp"
+
 namespace hamflow {
 
-enum class Instruction : std::uint8_t {
-  add,          // a + b
-  subtract,     // a - b
-  multiply,     // a b
-  divide,       // a/b
-  negate,       // -a
-  absolute,     // |a|
-  larger,       // a < b ? b : a
-  square_root,  // of a; correctly rounded
-  choose,       // a > 0 ? b : c
-  // Functions of the system's library, called.
-  exponential,
-  logarithm,
-  sine,
-  cosine,
-  tangent,
-  arcsine,
-  arccosine,
-  arctangent,
-  sinh,
-  cosh,
-  tanh,
-  arctangent2,  // atan2(a, b)
-  power,        // pow(a, b)
-  // Of machine code alone: the sine of a number and, directly behind it, its cosine, by one call.
-  sine_of_both,
-  cosine_of_both,
-  // Of lanes that are one step together (numerics/program_lanes.hpp): a of lane number b, in every lane. a is carried
-  // and stays as it is, b a constant.
-  of_lane
-};
+/// What operations are called in programs: arithmetic, the functions of formulas, and what is of programs alone.
+using Instruction = Operation;
 
 /// The value of an earlier operation, of what is carried, or of a constant.
 struct Operand {

@@ -8,7 +8,9 @@
 #pragma once
 
 #include "hamflow/core/dual.hpp"
+#include "hamflow/core/error.hpp"
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/operation.hpp"
 
 namespace hamflow {
 
@@ -168,6 +170,29 @@ template <class S>
 Slope<S> atan(const Slope<S>& x) {
   return detail::follow(x, S(atan(x.first)), S(atan(x.last)), detail::difference_of_atan(x.first, x.last));
 }
+template <class S>
+Slope<S> asin(const Slope<S>& x) {
+  const Slope<S> one(S(base_scalar<S>(1)));
+  return atan(x / sqrt((one - x) * (one + x)));
+}
+template <class S>
+Slope<S> acos(const Slope<S>& x) {
+  const Slope<S> one(S(base_scalar<S>(1)));
+  return (one + one) * atan(sqrt((one - x) / (one + x)));
+}
+/// The angle of (x, y), by the half angle formula that does not cancel at first.
+template <class S>
+Slope<S> atan2(const Slope<S>& y, const Slope<S>& x) {
+  const Slope<S> two(S(base_scalar<S>(2)));
+  const Slope<S> r = sqrt(square(x) + square(y));
+  if (value_of(x.first) < base_scalar<S>(0)) return two * atan((r - x) / y);
+  return two * atan(y / (r + x));
+}
+/// x^y, x > 0.
+template <class S>
+Slope<S> pow(const Slope<S>& x, const Slope<S>& y) {
+  return exp(y * log(x));
+}
 /// 0 at 0, where |x| has no derivative.
 template <class S>
 Slope<S> abs(const Slope<S>& x) {
@@ -191,5 +216,19 @@ Slope<S> pow(const Slope<S>& x, const base_scalar<S>& c) {
   const Slope<S> exponent = Slope<S>(S(c)) * log(x);
   return {pow(x.first, c), pow(x.last, c), exp(exponent).slope};
 }
+
+/// Functions without a row of their own above have no divided difference here.
+#define HAMFLOW_SLOPE_OF_known(name)
+#define HAMFLOW_SLOPE_OF_unknown(name)                                                                      \
+  template <class S>                                                                                        \
+  Slope<S> name(const Slope<S>&) {                                                                          \
+    throw Error("found " #name                                                                              \
+                " in a Hamiltonian; allowed with this method functions whose divided difference is known"); \
+  }
+#define HAMFLOW_SLOPE_OF(name, symmetry, rule, series) HAMFLOW_SLOPE_OF_##series(name)
+HAMFLOW_FUNCTIONS(HAMFLOW_SLOPE_OF)
+#undef HAMFLOW_SLOPE_OF
+#undef HAMFLOW_SLOPE_OF_unknown
+#undef HAMFLOW_SLOPE_OF_known
 
 }  // namespace hamflow

@@ -98,9 +98,9 @@ class TaylorSeries {
     const auto constant = [&]() -> const Constant& { return tape.constants[static_cast<std::size_t>(n.constant)]; };
     const R whole = R(static_cast<int>(k));
     switch (n.operation) {
-      case Operation::input:
+      case Operation::symbol:
         break;
-      case Operation::constant:
+      case Operation::number:
         y[k] = k == 0 ? R(constant()) : R(0);
         break;
       case Operation::add:
@@ -133,19 +133,19 @@ class TaylorSeries {
       case Operation::invert:  // y a = c
         y[k] = k == 0 ? R(constant() / a[0]) : R(-detail::convolution(a, y, k, 1, k) / a[0]);
         break;
-      case Operation::square_root:  // y^2 = a
+      case Operation::sqrt:  // y^2 = a
         y[k] = k == 0 ? R(sqrt(a[0])) : R((a[k] - detail::self_convolution(y, k, 1)) / (R(2) * y[0]));
         break;
-      case Operation::exponential:  // y' = a' y
+      case Operation::exp:  // y' = a' y
         y[k] = k == 0 ? R(exp(a[0])) : R(detail::weighted_convolution(a, y, k, 1, k) / whole);
         break;
-      case Operation::logarithm:  // a y' = a'
+      case Operation::log:  // a y' = a'
         y[k] = k == 0 ? R(log(a[0])) : R((a[k] - detail::weighted_convolution(y, a, k, 1, k - 1) / whole) / a[0]);
         break;
-      case Operation::sine:  // y' = a' b, b = cos a
+      case Operation::sin:  // y' = a' b, b = cos a
         y[k] = k == 0 ? R(sin(a[0])) : R(detail::weighted_convolution(a, b, k, 1, k) / whole);
         break;
-      case Operation::cosine:  // y' = -a' b, b = sin a
+      case Operation::cos:  // y' = -a' b, b = sin a
         y[k] = k == 0 ? R(cos(a[0])) : R(-detail::weighted_convolution(a, b, k, 1, k) / whole);
         break;
       case Operation::sinh:
@@ -154,26 +154,20 @@ class TaylorSeries {
       case Operation::cosh:
         y[k] = k == 0 ? R(cosh(a[0])) : R(detail::weighted_convolution(a, b, k, 1, k) / whole);
         break;
-      case Operation::tangent:  // y' = a' (1 + b), b = y^2
+      case Operation::tan:  // y' = a' (1 + b), b = y^2
         y[k] = k == 0 ? R(tan(a[0])) : R(a[k] + detail::weighted_convolution(a, b, k, 1, k) / whole);
         break;
       case Operation::tanh:  // y' = a' (1 - b), b = y^2
         y[k] = k == 0 ? R(tanh(a[0])) : R(a[k] - detail::weighted_convolution(a, b, k, 1, k) / whole);
         break;
-      case Operation::arctangent:  // (1 + b) y' = a', b = a^2
+      case Operation::atan:  // (1 + b) y' = a', b = a^2
         y[k] = k == 0 ? R(atan(a[0]))
                       : R((a[k] - detail::weighted_convolution(y, b, k, 1, k - 1) / whole) / (R(1) + b[0]));
         break;
-      case Operation::power:
+      case Operation::power_constant:
         y[k] = k == 0 ? R(pow(a[0], constant())) : power(a, y, constant(), k);
         break;
-      case Operation::absolute:  // of exact recordings only
-      case Operation::larger:
-      case Operation::choose:
-      case Operation::arcsine:
-      case Operation::arccosine:
-      case Operation::arctangent2:
-      case Operation::power_of_two:
+      default:  // of exact recordings, and functions whose coefficients nobody knows
         Trace<Constant>::refuse();
     }
   }

@@ -1,47 +1,65 @@
-#include "syntax.hpp"
+#include "hamflow/core/syntax.hpp"
 
 #include <algorithm>
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 
-namespace hamflow::formula {
+namespace hamflow {
 
 bool is_keyword(std::string_view word) { return word == "let" || word == "in" || word == "sum"; }
 
-const Op* find_function(std::string_view word) {
-  for (const FunctionName& f : functions()) {
-    if (f.name == word) return &f.op;
-  }
-  return nullptr;
-}
-
-bool names_something(const FormulaSymbols& symbols, std::string_view word) {
-  return std::any_of(symbols.names.begin(), symbols.names.end(), [&](const std::string& name) {
+bool names_something(std::span<const std::string> names, std::string_view word) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
     return name.starts_with(word) && (name.size() == word.size() || name[word.size()] == '[');
   });
 }
 
+std::string refused_formula_name(const std::string& name) {
+  if (find_function(name) != nullptr) return "the name " + name + ", which is a function";
+  if (is_keyword(name)) return "the name " + name + ", which is a word of formulas";
+  if (name == "pi" || name == "Pi") return "the name " + name + ", which is a number";
+  if (name == "t") return "the name t, which is the time";
+  const bool word = !name.empty() && is_letter(name[0]) &&
+                    std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
+  return word ? "" : "the name \"" + shown(name) + "\", which is no word of letters, digits and _";
+}
+
 std::string Syntax::shown_part(const Part& part) const {
-  std::string_view whole = trimmed(text.substr(part.begin, part.end - part.begin));
-  return shown(whole);
+  return shown(trimmed(text.substr(part.begin, part.end - part.begin)));
+}
+
+void Syntax::refuse_division_by_zero(const Part& division) const {
+  const std::string divisor = shown_part((*this)[division.b]);
+  refuse_at(text, division.at,
+            shown_part((*this)[division.a]) + " divided by " + divisor + (divisor == "0" ? "" : ", which is 0"),
+            "a divisor other than 0");
+}
+
+void Syntax::refuse_value(const Part& part, bool infinite) const {
+  refuse_at(text, part.at, shown_part(part) + (infinite ? " is infinite or too large" : " is not a real number"),
+            "finite real numbers");
 }
 
 namespace {
 
 constexpr const char* operators = "an operator (+ - * / ^)";
-constexpr const char* operands = "a number, a name, a function such as sqrt(2), or '('";
 
-/// expression := 'let' word '=' expression (',' word '=' expression)* 'in' expression | sum,
-/// sum := product (('+'|'-') product)*, product := unary (('*'|'/') unary)*, unary := ('+'|'-') unary | power,
-/// power := atom (('^'|'**') unary)?
+/// "10^5" for a power of ten.
+std::string power_of_ten(std::size_t number) {
+  int digits = 0;
+  for (; number >= 10; number /= 10) ++digits;
+  return "10^" + std::to_string(digits);
+}
+
 class SyntaxReader {
  public:
-  SyntaxReader(std::string_view text, const FormulaSymbols& symbols) : symbols_(symbols), syntax_{text, {}, -1} {}
+  SyntaxReader(std::string_view text, const SyntaxRules& rules) : rules_(rules), syntax_{text} {}
 
   Syntax read() {
-    if (text().size() > FormulaLimits::characters) {
-      refuse_at(text(), FormulaLimits::characters, "more than 10^5 characters", "at most 10^5");
+    if (text().size() > rules_.characters) {
+      const std::string most = power_of_ten(rules_.characters);
+      refuse(rules_.characters, "more than " + most + " characters", "at most " + most);
     }
     syntax_.root = expression();
     skip_space();
@@ -58,8 +76,11 @@ class SyntaxReader {
                            const std::string& meant = "") const {
     refuse_at(text(), at, what, allowed, meant);
   }
+  std::string operands() const {
+    return std::string("a number, ") + (rules_.only_numbers ? "pi" : "a name") + ", a function such as sqrt(2), or '('";
+  }
   [[noreturn]] void fail_before_operand() const {
-    refuse(at_, character_at(text(), at_) + " where a number has to be", operands);
+    refuse(at_, character_at(text(), at_) + " where a number has to be", operands());
   }
   /// The text goes on after a complete operand: mostly a forgotten sign of multiplication.
   [[noreturn]] void fail_after_operand(const char* where_it_ends) {
@@ -80,8 +101,8 @@ class SyntaxReader {
     }
     const std::string_view next = word();
     const bool exponent = lower(next).starts_with('e') && is_digit(last) && gap == at;
-    const bool known = next == "pi" || next == "Pi" || next == "sum" || find_function(next) != nullptr ||
-                       (!next.empty() && names_something(symbols_, next));
+    const bool known = next == "pi" || next == "Pi" || (next == "sum" && !rules_.only_numbers) ||
+                       find_function(next) != nullptr || (!next.empty() && names_something(rules_.names, next));
     const bool times = known || text()[at] == '(' || (is_digit(text()[at]) && !is_digit(last) && last != '.');
     refuse(at, "no operator before " + (next.empty() ? std::string(text().substr(at, 1)) : std::string(next)),
            operators + std::string(exponent ? ", or an exponent such as 2e-3" : ""),
@@ -116,12 +137,16 @@ class SyntaxReader {
     return false;
   }
   int add(Part part) {
+    if (syntax_.parts.size() > 2 * rules_.operations) {
+      const std::string most = power_of_ten(rules_.operations);
+      refuse(part.at, "more than " + most + " operations", "at most " + most);
+    }
     syntax_.parts.push_back(part);
     return static_cast<int>(syntax_.parts.size()) - 1;
   }
   std::size_t end_of(int part) const { return syntax_[part].end; }
   std::size_t begin_of(int part) const { return syntax_[part].begin; }
-  int binary(Op op, std::size_t sign, int x, int y) {
+  int binary(Operation op, std::size_t sign, int x, int y) {
     return add(
         {.kind = Part::Kind::operation, .op = op, .a = x, .b = y, .at = sign, .begin = begin_of(x), .end = end_of(y)});
   }
@@ -130,7 +155,7 @@ class SyntaxReader {
   class Level {
    public:
     explicit Level(SyntaxReader& reader) : reader_(reader) {
-      if (++reader_.depth_ > FormulaLimits::depth) {
+      if (++reader_.depth_ > deepest_expression) {
         reader_.refuse(reader_.at_, "more than 200 nested signs, powers, parentheses and let", "at most 200");
       }
     }
@@ -146,7 +171,7 @@ class SyntaxReader {
     const Level level(*this);
     skip_space();
     const std::size_t begin = at_;
-    if (!take_word("let")) return sum_of_products();
+    if (rules_.only_numbers || !take_word("let")) return sum_of_products();
     return bindings(begin);
   }
   /// name = value, name = value in body
@@ -184,8 +209,8 @@ class SyntaxReader {
       refuse(begin, character_at(text(), begin) + " where a name has to be " + where, "a name such as r");
     if (const std::string why = refused_formula_name(std::string(name)); !why.empty())
       refuse(begin, why, "another name");
-    if (names_something(symbols_, name)) {
-      refuse(begin, "the name " + std::string(name) + " a second time: it is one of the " + symbols_.what,
+    if (names_something(rules_.names, name)) {
+      refuse(begin, "the name " + std::string(name) + " a second time: it is one of the " + std::string(rules_.what),
              "another name");
     }
     return name;
@@ -197,9 +222,9 @@ class SyntaxReader {
       skip_space();
       const std::size_t sign = at_;
       if (take("+")) {
-        x = binary(Op::add, sign, x, product());
+        x = binary(Operation::add, sign, x, product());
       } else if (take("-")) {
-        x = binary(Op::subtract, sign, x, product());
+        x = binary(Operation::subtract, sign, x, product());
       } else {
         return x;
       }
@@ -211,9 +236,9 @@ class SyntaxReader {
       skip_space();
       const std::size_t sign = at_;
       if (take("*")) {  // no "**": a power has read it
-        x = binary(Op::multiply, sign, x, unary());
+        x = binary(Operation::multiply, sign, x, unary());
       } else if (take("/")) {
-        x = binary(Op::divide, sign, x, unary());
+        x = binary(Operation::divide, sign, x, unary());
       } else {
         return x;
       }
@@ -225,15 +250,19 @@ class SyntaxReader {
     const std::size_t sign = at_;
     if (take("-")) {
       const int x = unary();
-      return add(
-          {.kind = Part::Kind::operation, .op = Op::negate, .a = x, .at = sign, .begin = sign, .end = end_of(x)});
+      return add({.kind = Part::Kind::operation,
+                  .op = Operation::negate,
+                  .a = x,
+                  .at = sign,
+                  .begin = sign,
+                  .end = end_of(x)});
     }
     if (take("+")) return unary();
     const int base = atom();
     skip_space();
     const std::size_t power = at_;
     if (!take("**") && !take("^")) return base;
-    return binary(Op::power, power, base, unary());  // to the right, and 2^-3 is allowed
+    return binary(Operation::power, power, base, unary());  // to the right, and 2^-3 is allowed
   }
   /// The closing bracket that belongs to an opening one. @return the place behind it
   std::size_t closed(std::size_t opened, char bracket) {
@@ -259,11 +288,13 @@ class SyntaxReader {
     if (name.empty()) fail_before_operand();
     if (name == "pi" || name == "Pi") return add({.kind = Part::Kind::pi, .at = begin, .begin = begin, .end = at_});
     skip_space();
+    if (rules_.only_numbers && find_function(name) == nullptr && here() != '(') fail_at_name(name, begin);
+    if (rules_.only_numbers && find_function(name) == nullptr) fail_at_function(name, begin);
     if (name == "let")
       refuse(begin, "let within an expression", "let at its beginning, or in parentheses: (let ... in ...)");
-    if (name == "in") refuse(begin, "'in' without its let", operands);
+    if (name == "in") refuse(begin, "'in' without its let", operands());
     if (name == "sum") return sum(begin);
-    if (const Op* const function = find_function(name)) return call(*function, name, begin);
+    if (const Operation* const function = find_function(name)) return call(*function, name, begin);
     if (here() == '(') fail_at_function(name, begin);
     at_ = begin + name.size();
     return name_parts(begin, begin + name.size());
@@ -293,18 +324,26 @@ class SyntaxReader {
     }
     return add(part);
   }
+  /// A name where there are none. Short words are near everything: at least a letter has to be the same.
+  [[noreturn]] void fail_at_name(std::string_view name, std::size_t begin) const {
+    const std::string near = nearest(lower(name), std::vector<std::string>{"pi"});
+    const bool alike = near.find_first_of(lower(name)) != std::string::npos;
+    refuse(begin, "the unknown symbol " + std::string(name), "numbers, pi, functions such as sqrt(2)",
+           alike ? near : written_here(name));
+  }
   [[noreturn]] void fail_at_function(std::string_view name, std::size_t begin) const {
-    if (names_something(symbols_, name)) {
+    if (names_something(rules_.names, name)) {
       refuse(at_, "no operator between " + std::string(name) + " and '('", operators,
              text().size() < 60 ? with(begin + name.size(), at_, "*") : "");
     }
-    std::vector<std::string> names{"sum"};
-    for (const FunctionName& f : functions()) names.emplace_back(f.name);
+    std::vector<std::string> names;
+    if (!rules_.only_numbers) names.emplace_back("sum");
+    for (const NamedFunction& f : named_functions()) names.emplace_back(f.name);
     const std::string here = written_here(name);
     refuse(begin, "the unknown function " + std::string(name), joined(names),
            here.empty() ? nearest(lower(name), names) : here);
   }
-  int call(Op function, std::string_view name, std::size_t begin) {
+  int call(Operation function, std::string_view name, std::size_t begin) {
     const std::string word(name);
     const bool two = takes_two(function);
     const std::string usual = word + (two ? "(y, x)" : "(x)");
@@ -367,7 +406,7 @@ class SyntaxReader {
     return add({.kind = Part::Kind::number, .word = number, .at = begin, .begin = begin, .end = at_});
   }
 
-  const FormulaSymbols& symbols_;
+  const SyntaxRules& rules_;
   Syntax syntax_;
   std::size_t at_ = 0;
   int depth_ = 0;
@@ -375,6 +414,6 @@ class SyntaxReader {
 
 }  // namespace
 
-Syntax read_syntax(std::string_view text, const FormulaSymbols& symbols) { return SyntaxReader(text, symbols).read(); }
+Syntax read_syntax(std::string_view text, const SyntaxRules& rules) { return SyntaxReader(text, rules).read(); }
 
-}  // namespace hamflow::formula
+}  // namespace hamflow
