@@ -91,7 +91,7 @@ hamflow::Request tube_request(hamflow::WallRule rule, const std::string& h_text,
   hamflow::Walls walls;
   walls.intervals = {{"q1", 0, "-1", "1"}, {"q2", 1, "0.1", "2.1"}};
   walls.rule = rule;
-  hamflow::put_among(walls, request.variant);
+  request.walls = walls;
   return request;
 }
 

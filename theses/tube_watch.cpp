@@ -291,7 +291,7 @@ std::unique_ptr<StepMap> free_tube_step(const TubeRun& run) {
   const ProblemEntry& problem = *problem_entry;
   const Texts given{{"masses", "[1, 100]"}, {"eps", fmt::format("{}", run.eps)}};
   return problem.step_map({.problem = "t-tube",
-                           .variant = {{"walls", ""}},
+                           .variant = {},
                            .parameters = complete(problem.info, given),
                            .start = {},
                            .method = parse_method(run.method)},

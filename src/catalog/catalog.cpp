@@ -36,8 +36,9 @@ std::span<const ProblemEntry> problems() {
 }
 
 std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
-                                                 const std::map<std::string, std::string>& variant) {
-  if (walls_among(variant)) return walled_problem(name, variant);
+                                                 const std::map<std::string, std::string>& variant,
+                                                 const std::optional<Walls>& walls) {
+  if (walls) return walled_problem(name, variant, *walls);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
   std::vector<std::string> names;
@@ -61,7 +62,6 @@ std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
 
 std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,
                                                   const std::map<std::string, std::string>& variant) {
-  if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
   const std::shared_ptr<const ProblemEntry> any = find_problem(name, variant);
@@ -189,7 +189,7 @@ static bool beats_loops(const Program& program) {
 std::unique_ptr<Simulation> make_simulation(const Request& request) { return make_simulation_of(Request(request)); }
 
 std::unique_ptr<Simulation> make_simulation_of(Request request) {
-  const auto problem_entry = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request);
   const ProblemEntry& problem = *problem_entry;
   check_arithmetic(request.arithmetic);
   const std::string why_not = refusal_with_advice(request.method, &problem, request.arithmetic);

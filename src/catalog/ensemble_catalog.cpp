@@ -18,7 +18,7 @@ std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneS
   const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
   if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;
   if (step_control_of(request.method).reversible) return nullptr;  // lanes share the time of a step
-  const std::shared_ptr<const ProblemEntry> problem = find_problem(request.problem, request.variant);
+  const std::shared_ptr<const ProblemEntry> problem = find_problem(request);
   const bool is_iterated = visit_method(request.method, []<class M>(const M&) { return std::is_same_v<M, Averages>; });
   return is_iterated ? make_iterated_block(problem, request, lanes) : make_recorded_block(problem, request, lanes);
 }

@@ -168,7 +168,7 @@ std::unique_ptr<Simulation> simulate_without_walls(const ErasedRun<R>& run, cons
 
 template <class R>
 std::unique_ptr<Simulation> simulate_asked(const ErasedRun<R>& run, const Request& request) {
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   if (!walls) return simulate_without_walls(run, request);
   return simulate_behind_walls<R>(run, request, *walls, simulate_without_walls<R>);
 }

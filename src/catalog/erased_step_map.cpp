@@ -83,7 +83,7 @@ std::unique_ptr<StepMap> map_without_walls(const ErasedProblem& problem, const M
 }  // namespace
 
 std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Request& request) {
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   return walls ? step_map_behind_walls(problem, request, *walls, map_without_walls)
                : map_without_walls(problem, request.method);
 }

@@ -123,7 +123,7 @@ std::size_t operations_at_point(const formula::Model& model) {
 std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, const ErasedRun<double>& run,
                                                const Request& request) {
   constexpr std::size_t most_operations = 2000;
-  if (walls_among(request.variant)) return simulate_erased<double>(run, request);  // the programs below know none
+  if (request.walls) return simulate_erased<double>(run, request);  // the programs below know none
   auto element = visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
     if constexpr (std::is_same_v<M, Cg>) {
       if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, request, recipe.options);
@@ -235,7 +235,7 @@ DigitCharts polar_digit_charts() {
 }
 
 MethodSpec method_taken(const Request& request) {
-  const Choices choices = without_walls(request.variant);
+  const Choices& choices = request.variant;
   const std::size_t coordinates = find_problem(request.problem, choices)->dimension;
   if (request.problem != FormulaKeys::problem || choices.empty() ||
       unknowns_of_step(request.method, coordinates + clock_coordinates) < fewest_unknowns_by_fixed_points) {

@@ -264,10 +264,10 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
 /// The texts of a start that has been read are not kept: those of a million particles take as much memory as their
 /// lists of neighbours. (A binding of every member: one more of them does not compile.)
 Request without_start(const Request& request) {
-  const auto& [problem, variant, parameters, start, method, dt, arithmetic, position_unit, momentum_unit, threads,
-               watch, record] = request;
-  return {problem,    variant,       parameters,    {},      method, dt,
-          arithmetic, position_unit, momentum_unit, threads, watch,  record};
+  const auto& [problem, variant, walls, parameters, start, method, dt, arithmetic, position_unit, momentum_unit,
+               threads, watch, record] = request;
+  return {problem,    variant,       walls,         parameters, {},    method, dt,
+          arithmetic, position_unit, momentum_unit, threads,    watch, record};
 }
 
 /// With pairs by the engine, where it takes them: steps are then not recorded, whose sums would have another order.
@@ -294,7 +294,7 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
     // Walls are told, and steps of varying length taken, behind virtual calls.
-    const bool behind_calls = walls_among(request.variant) || step_control_of(request.method).reversible;
+    const bool behind_calls = request.walls || step_control_of(request.method).reversible;
     if (request.arithmetic == "lattice" && !behind_calls) {
       simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
     }

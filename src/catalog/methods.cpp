@@ -170,7 +170,7 @@ std::size_t unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
 std::string hint_after_divergence(const Request& request, bool differentiated) {
   const MethodFamily& family = *find_method(request.method.name).family;
   if (!family.hint) return std::string(hint(Outcome::not_converged));
-  const auto problem_entry = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request);
   const ProblemEntry& problem = *problem_entry;
   const std::size_t coordinates = request.start.q.size();
   UsableAdvice usable;

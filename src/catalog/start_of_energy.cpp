@@ -51,7 +51,7 @@ template <class R>
 R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
   const StartSpec& spec = request.start;
   EnergyLine<R> line = without_walls;
-  if (const auto walls = walls_among(request.variant)) {
+  if (const auto walls = request.walls) {
     const R of_walls = soft_energy<R>(*walls, line.q);
     // A start beyond a wall, where there is no energy, is refused with the name of the wall.
     if (is_number(of_walls))

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <memory>
-#include <utility>
+#include <tuple>
 
 #include "hamflow/run/state_names.hpp"
 #include "made_entries.hpp"
@@ -75,9 +75,7 @@ std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
 
 ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
   ProblemEntry e = problem;
-  Choices of_walls;
-  put_among(walls, of_walls);
-  for (const auto& choice : of_walls) e.info.variant.push_back(choice);
+  e.walls = walls;
   e.info.chart_key.clear();
   e.info.invariants.clear();
   const std::vector<bool> kept = kept_of(problem, walls);
@@ -119,13 +117,14 @@ ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
 }  // namespace
 
 std::vector<bool> kept_invariants(const Request& request, const Walls& walls) {
-  return kept_of(*find_problem(request.problem, without_walls(request.variant)), walls);
+  return kept_of(*find_problem(request.problem, request.variant), walls);
 }
 
-std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name, const Choices& choices) {
-  static MadeEntries<std::pair<std::string, Choices>> made;
-  const std::shared_ptr<const ProblemEntry> problem = find_problem(name, without_walls(choices));
-  return made.find({name, choices}, [&] { return entry_behind(*problem, *walls_among(choices)); });
+std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name, const Choices& choices,
+                                                   const Walls& walls) {
+  static MadeEntries<std::tuple<std::string, Choices, Walls>> made;
+  const std::shared_ptr<const ProblemEntry> problem = find_problem(name, choices);
+  return made.find({name, choices, walls}, [&] { return entry_behind(*problem, walls); });
 }
 
 }  // namespace hamflow

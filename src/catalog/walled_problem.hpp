@@ -6,9 +6,10 @@
 
 namespace hamflow {
 
-/// The entry of a problem behind the walls that are among its choices.
+/// The entry of a problem behind walls.
 std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name,
-                                                   const std::map<std::string, std::string>& choices);
+                                                   const std::map<std::string, std::string>& choices,
+                                                   const Walls& walls);
 /// Which invariants of the problem without walls they leave.
 std::vector<bool> kept_invariants(const Request& request, const Walls& walls);
 

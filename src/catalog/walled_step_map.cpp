@@ -129,7 +129,7 @@ class WalledStepMap final : public StepMap {
     request.method = {ExtrapolatedMidpoint::name, {{tolerance_option, "1e-31"}}};
     Walls located = walls_;
     located.rule = WallRule::event;
-    put_among(located, request.variant);
+    request.walls = located;
     State<Quad> end = z;
     if (t != Quad(0) && !quad_steps(end, t / Quad(parts), parts, request)) {
       throw Error("the motion behind the walls cannot be followed");
@@ -239,7 +239,7 @@ class WalledStepMap final : public StepMap {
   /// would be divided by the distance. A part may be much shorter: the distance is that of the whole step.
   std::optional<State<double>> rate_of(const State<double>& z, double length, double h) const {
     Request request = in_quad(request_);
-    request.variant = without_walls(request.variant);
+    request.walls.reset();
     if (!free_->claims().explicit_step) {  // what is said of Newton begins with the tolerance
       const auto& options = find_method(request.method.name).family->options;
       auto option =

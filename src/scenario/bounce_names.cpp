@@ -7,7 +7,7 @@
 namespace hamflow {
 
 std::vector<std::string> bounce_names(const Scenario& scenario) {
-  const auto walls = walls_among(scenario.request.variant);
+  const auto& walls = scenario.request.walls;
   if (!walls || !walls->hard()) return {};
   const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
   const bool gas = scenario.request.problem == GasKeys::problem;

@@ -57,9 +57,8 @@ std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntr
 }  // namespace
 
 std::shared_ptr<const ProblemEntry> without_own_walls(const std::shared_ptr<const ProblemEntry>& problem) {
-  const std::map<std::string, std::string> choices(problem->info.variant.begin(), problem->info.variant.end());
-  if (problem->info.walls.empty() || !walls_among(choices)) return problem;
-  return find_problem(problem->info.name, without_walls(choices));
+  if (problem->info.walls.empty() || !problem->walls) return problem;
+  return find_problem(problem->info.name, {problem->info.variant.begin(), problem->info.variant.end()});
 }
 
 std::string coordinates_of(const ProblemEntry& behind) {
@@ -95,7 +94,7 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
   check_coordinates(to);
   const std::shared_ptr<const ProblemEntry> inside = without_own_walls(given);
   const ProblemEntry& problem = *inside;
-  if (walls_among({problem.info.variant.begin(), problem.info.variant.end()})) {
+  if (problem.walls) {
     throw Error("found " + problem.info.name +
                 " behind walls; allowed without: a wall on one coordinate is none on those "
                 "of another chart");

@@ -436,7 +436,7 @@ void ScenarioReader::read_box(TomlTable& table) {
     const std::string half = "(" + edges[i % edges.size()] + ")/2";
     walls.intervals.push_back({names[i], i, "-" + half, half});
   }
-  put_among(walls, scenario_.request.variant);
+  scenario_.request.walls = walls;
   scenario_.problem = find_problem(GasKeys::problem, scenario_.request.variant);
 }
 
@@ -452,8 +452,7 @@ std::string without_hessian(const Request& request, std::size_t coordinates, con
 std::string refused_by_size(const Request& request, std::size_t coordinates) {
   const std::string& name = request.method.name;
   const auto other_method = [&](std::initializer_list<std::string_view> candidates) {
-    return "another method" +
-           with_fitting_methods(candidates, find_problem(request.problem, request.variant).get(), request.arithmetic);
+    return "another method" + with_fitting_methods(candidates, find_problem(request).get(), request.arithmetic);
   };
   if (name == "itoh-abe" && coordinates > ItohAbe::most_coordinates) {
     const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;

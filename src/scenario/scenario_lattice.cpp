@@ -33,7 +33,7 @@ void ScenarioReader::usual_units() {
       !gas && scenario_.problem != nullptr && scenario_.problem->has_pairwise_forces && !scenario_.start_q.empty();
   // Positions behind a mirror, as far from it as those in front, are exact in double, too.
   std::vector<double> positions = scenario_.start_q;
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   if (walls && (pairwise ? walls->rule == WallRule::mirror : walls->hard())) {
     for (const Walls::Interval& wall : walls->intervals) {
       for (const std::string& text : {wall.min, wall.max})

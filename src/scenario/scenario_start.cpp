@@ -303,8 +303,7 @@ void ScenarioReader::check_start(TomlTable& table) {
   if (geometric && request.start.kind.empty() && request.start.orbit.contains("energy")) {
     const double wanted = evaluate_number<double>(request.start.orbit.at("energy"));
     // An orbit is one of the problem without walls.
-    const double found =
-        find_problem(request.problem, without_walls(request.variant))->energy(request.parameters, start.q, start.p);
+    const double found = find_problem(request.problem, request.variant)->energy(request.parameters, start.q, start.p);
     double size = std::abs(wanted) + std::abs(found);
     for (const double p : start.p) size += p * p;
     if (!(std::abs(found - wanted) <= 1e-8 * size)) {

@@ -139,8 +139,8 @@ void ScenarioReader::read_walls(TomlTable& table) {
                    "they are in space");
   }
   if (complaints_.size() != before) return;
-  put_among(walls, scenario_.request.variant);
-  scenario_.problem = find_problem(scenario_.request.problem, scenario_.request.variant);
+  scenario_.request.walls = walls;
+  scenario_.problem = find_problem(scenario_.request);
 }
 
 namespace {
@@ -162,7 +162,7 @@ std::string rules_taken(const Request& request, const Walls& walls, const std::v
 }  // namespace
 
 std::string refused_by_walls(const Request& request, const ProblemEntry& problem, const std::vector<double>& start_q) {
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   if (!walls) return {};
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
@@ -206,16 +206,16 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
 }
 
 std::string rule_of_walls(const Request& request) {
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   return walls ? wall_rules()[static_cast<std::size_t>(walls->rule)] : std::string();
 }
 
 /// Whether it is the potential of soft walls that keeps the method from this problem, which is then complained about.
 bool ScenarioReader::complain_of_soft_walls() {
   const Request& request = scenario_.request;
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   if (!walls || walls->hard()) return false;
-  const auto inside_entry = find_problem(request.problem, without_walls(request.variant));
+  const auto inside_entry = find_problem(request.problem, request.variant);
   const ProblemEntry& inside = *inside_entry;
   if (!refusal(request.method, inside).empty()) return false;
   std::vector<WallRule> hard{WallRule::event, WallRule::reject};
@@ -232,7 +232,7 @@ bool ScenarioReader::complain_of_soft_walls() {
 /// What only shows beside method and arithmetic.
 void ScenarioReader::check_walls() {
   const Request& request = scenario_.request;
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   if (!walls || scenario_.problem == nullptr || scenario_.start_q.empty() || !has_method()) return;
   const WallKeys& keys = wall_keys();
   TomlTable table = root_.table("problem");

@@ -192,6 +192,13 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   std::string key = request.problem + '\n' + request.method.name + '\n' + request.arithmetic;
   for (const auto& [option, value] : request.method.options) key += '\n' + option + '=' + value;
   for (const auto& [choice, value] : request.variant) key += '\n' + choice + '=' + value;
+  if (request.walls) {
+    key += '\n' + wall_rules()[static_cast<std::size_t>(request.walls->rule)] + ' ' + request.walls->strength + ' ' +
+           request.walls->exponent;
+    for (const Walls::Interval& wall : request.walls->intervals) {
+      key += '\n' + wall.coordinate + ' ' + wall.min + ' ' + wall.max;
+    }
+  }
   for (const ParameterInfo& info : scenario.problem->info.parameters) {
     if (!parameters.has(info.name)) continue;
     const std::vector<double>& numbers = parameters.list(info.name);

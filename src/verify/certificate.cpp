@@ -321,7 +321,7 @@ bool keeps_an_energy(const Request& request, const MethodInfo& method) {
 
 /// Whether it has met walls at which the energy of its method walks (docs/design.md, Walls).
 bool walks_at_walls(const Request& request, const Simulation& simulation) {
-  const auto walls = walls_among(request.variant);
+  const auto& walls = request.walls;
   if (!walls || !(walls->rule == WallRule::event || walls->rule == WallRule::reject)) return false;
   const std::vector<WallCount> counts = simulation.wall_counts();
   return simulation.method().energy_conserving == Conservation::no &&

@@ -839,8 +839,7 @@ class StepExamination {
 }  // namespace
 
 StepCertificate certify_step(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims) {
-  if (walls_among(problem.variant))
-    throw Error("found a problem with walls; allowed one without: a step is measured alone");
+  if (problem.entry->walls) throw Error("found a problem with walls; allowed one without: a step is measured alone");
   if (problem.entry->onto_constraints) throw Error("found a problem with constraints; allowed one without");
   return StepExamination(step, problem, claims).certificate();
 }

@@ -198,7 +198,7 @@ std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count) {
 }
 
 Comparison compare(const ComparisonRequest& asked, const std::function<bool(const ComparisonProgress&)>& progress) {
-  const auto problem_entry = find_problem(asked.request.problem, asked.request.variant);
+  const auto problem_entry = find_problem(asked.request);
   const ProblemEntry& problem = *problem_entry;
   Comparison found{asked.request.problem, asked.request.arithmetic, asked.t_end, {}, {}, false};
   found.reference.kind = "none";

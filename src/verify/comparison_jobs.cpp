@@ -202,7 +202,7 @@ std::vector<std::string> comparison_notes(const ComparisonRequest& asked) {
   // Many coordinates in more digits take longer than all that is compared, and nothing is seen of it meanwhile.
   constexpr std::size_t many = 1000;
   const std::size_t coordinates = asked.request.start.q.size();
-  if (coordinates >= many && !find_problem(asked.request.problem, asked.request.variant)->exact) {
+  if (coordinates >= many && !find_problem(asked.request)->exact) {
     notes.push_back("the reference, " + std::to_string(coordinates) + " coordinates in " +
                     reference_arithmetic(asked.request.arithmetic) +
                     ", is what takes the time; a smaller run.steps or run.t_end, or fewer particles, shorten it");

@@ -16,7 +16,7 @@ constexpr std::uint64_t seed = 20100617;  // any number: fixed, so that a measur
 /// Bodies around the origin, at rest as a whole. Otherwise they leave it, and their coordinates round by more and more:
 /// the energy of any method then walks like t^1.5.
 State<double> in_barycentre(const Region& region, const State<double>& z) {
-  const auto found_entry = find_problem(region.problem, region.variant);
+  const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;
   Request request;
   request.parameters = complete(entry.info, region.parameters);
@@ -33,7 +33,7 @@ State<double> in_barycentre(const Region& region, const State<double>& z) {
 
 /// Where there are constraints, on them.
 static State<double> onto_constraints(const Region& region, const State<double>& z) {
-  const auto found_entry = find_problem(region.problem, region.variant);
+  const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;
   if (!entry.onto_constraints) return z;
   const auto half = z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2);
@@ -55,7 +55,6 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
   const auto found_entry = usual_problem(problem, variant);
   const ProblemEntry& entry = *found_entry;
   Region region{entry.info.region, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
-  if (!entry.info.walls.empty()) region.variant[wall_keys().walls.name] = "";  // far from them
   region.of_bodies = static_cast<bool>(entry.total_mass);
   region.constrained = static_cast<bool>(entry.onto_constraints);
   if (!region.centre.empty()) {
@@ -83,7 +82,7 @@ std::optional<Region> region_at_walls(const std::string& problem) {
   for (const FixedWall& wall : entry.info.walls) {
     walls.intervals.push_back({entry.info.coordinates.at(wall.coordinate), wall.coordinate, wall.min, wall.max});
   }
-  put_among(walls, region.variant);
+  region.walls = walls;
   return region;
 }
 
@@ -102,10 +101,11 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
         "; allowed step_control=fixed: what is measured are maps of (q, p), and with steps of varying length the "
         "density of steps is a part of the state");
   }
-  const auto found_entry = find_problem(region.problem, region.variant);
+  const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;
   const Request request{.problem = region.problem,
                         .variant = region.variant,
+                        .walls = region.walls,
                         .parameters = complete(entry.info, region.parameters),
                         .start = {},
                         .method = measurable(method)};
@@ -115,7 +115,7 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
 }
 
 std::vector<Region> default_regions(const MethodSpec& method) {
-  const auto refused = [&](const Region& r) { return !find_problem(r.problem, r.variant)->accepts(method); };
+  const auto refused = [&](const Region& r) { return !find_problem(r)->accepts(method); };
   std::vector<Region> usual{region_of("pendulum"), region_of("henon-heiles")};
   std::erase_if(usual, refused);
   if (!usual.empty()) return usual;

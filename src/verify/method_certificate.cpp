@@ -19,6 +19,7 @@ Request request_on(const Region& region, const MethodSpec& method, const State<d
   Request request;
   request.problem = region.problem;
   request.variant = region.variant;
+  request.walls = region.walls;
   request.parameters = region.parameters;
   request.method = method;
   request.dt = shortest(region.step);
@@ -56,7 +57,7 @@ std::string nothing_shown(const Simulation& simulation, Outcome outcome, double 
 
 /// Invariants of which rounding is known.
 void measure_maps(const Region& region, const MethodSpec& method, MethodCertificate& found) {
-  const auto problem_entry = find_problem(region.problem, region.variant);
+  const auto problem_entry = find_problem(region);
   const ProblemEntry& problem = *problem_entry;
   if (!problem.accepts(method) || problem.info.invariants.empty()) return;
   leave_if_stopped();
@@ -106,9 +107,8 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
     if (!measured) measure_maps(region, method, found);
   }
   for (const Region& region : regions) {
-    const ReversalEvidence back =
-        reversal_evidence(request_on(region, method, random_state(region, 0)),
-                          *find_problem(region.problem, region.variant), return_steps, std::nullopt);
+    const ReversalEvidence back = reversal_evidence(request_on(region, method, random_state(region, 0)),
+                                                    *find_problem(region), return_steps, std::nullopt);
     found.reversals.push_back({region.problem, back.steps, back.relative.value_or(0.0), back.relative.has_value(),
                                std::string(name(back.proves)), back.reason});
   }

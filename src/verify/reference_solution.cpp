@@ -129,8 +129,7 @@ std::string reference_arithmetic(const std::string& arithmetic) {
 
 class ReferenceRun::Impl {
  public:
-  Impl(const Request& request, const std::string& t_end, std::int64_t steps)
-      : problem_(find_problem(request.problem, request.variant)) {
+  Impl(const Request& request, const std::string& t_end, std::int64_t steps) : problem_(find_problem(request)) {
     const ProblemEntry& problem = *problem_;
     Request full = request;
     full.parameters = complete(problem.info, request.parameters);
@@ -153,9 +152,8 @@ class ReferenceRun::Impl {
     pieces_ = std::max<std::int64_t>(steps / 800, 16);
     // Behind hard walls the motion itself is that of located bounces, whatever the rule of the run; steps as short as
     // those of the run tell where it turns.
-    if (auto walls = walls_among(full.variant); walls && walls->hard()) {
-      walls->rule = WallRule::event;
-      put_among(*walls, full.variant);
+    if (full.walls && full.walls->hard()) {
+      full.walls->rule = WallRule::event;
       pieces_ = std::max<std::int64_t>(steps, 16);
     }
     const std::string end = beyond_double ? t_end : exact_digits(evaluate_number<double>(t_end));

@@ -72,7 +72,7 @@ struct Motion {
 class DistancesFrom final : public Observer {
  public:
   explicit DistancesFrom(const Motion& motion) : motion_(motion), of_positions_(motion.groups.count()) {
-    const auto walls = walls_among(motion.request.variant);
+    const auto& walls = motion.request.walls;
     if (walls && walls->hard()) sides_ = wall_sides<double>(*walls);
   }
   std::int64_t next_due(std::int64_t step) const override { return motion_.way.next_due(step); }
@@ -269,7 +269,7 @@ std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:
 /// Whether a motion begins on a hard wall, to rounding. There it comes back to the wall with the momentum of before or
 /// behind the bounce, which of them decides the last bit of the time.
 bool begins_on_a_wall(const Motion& motion) {
-  const auto walls = walls_among(motion.request.variant);
+  const auto& walls = motion.request.walls;
   if (!walls || !walls->hard()) return false;
   const auto sides = wall_sides<double>(*walls);
   return std::any_of(sides.begin(), sides.end(), [&](const WallSide<double>& side) {

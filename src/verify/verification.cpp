@@ -76,7 +76,7 @@ class Verification::Impl {
     for (const MethodSpec& spec : specs) {
       jobs_.push_back({spec});
       // A second copy of the state meets walls elsewhere.
-      if (at_walls && !describe(spec).carries_copy && find_problem(request.problem, at_walls->variant)->accepts(spec)) {
+      if (at_walls && !describe(spec).carries_copy && find_problem(*at_walls)->accepts(spec)) {
         jobs_.push_back({spec, at_walls});
       }
     }

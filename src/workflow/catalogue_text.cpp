@@ -86,13 +86,8 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
 
 /// The choices that find an entry in lists; those of a typed problem are its texts.
 std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& entry) {
-  std::vector<std::pair<std::string, std::string>> choices;
-  if (entry.structure) return choices;
-  const std::map<std::string, std::string> all(entry.info.variant.begin(), entry.info.variant.end());
-  const auto kept = without_walls(all);
-  std::copy_if(entry.info.variant.begin(), entry.info.variant.end(), std::back_inserter(choices),
-               [&](const auto& choice) { return kept.contains(choice.first); });
-  return choices;
+  if (entry.structure) return {};
+  return {entry.info.variant.begin(), entry.info.variant.end()};
 }
 
 std::string variant_text(const ProblemEntry& entry) {
@@ -142,7 +137,7 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
     if (!value.empty()) out << fmt::format("  here: {} = {}\n", name, value);
   }
   const bool gas = scenario.request.problem == GasKeys::problem;  // the walls are those of its box
-  if (const auto walls = walls_among(scenario.request.variant); walls && !gas) {
+  if (const auto& walls = scenario.request.walls; walls && !gas) {
     for (const Walls::Interval& wall : walls->intervals) {
       out << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
                          wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,

@@ -66,7 +66,7 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
 std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& asked) {
   std::vector<Warning> all;
   if (asked.request.problem != GasKeys::problem) return all;
-  const auto problem_entry = find_problem(asked.request.problem, asked.request.variant);
+  const auto problem_entry = find_problem(asked.request);
   const ProblemEntry& problem = *problem_entry;
   const Frame start = problem.start(asked.request);
   Frame end = start;

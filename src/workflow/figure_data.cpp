@@ -119,7 +119,7 @@ void add_section(const Section& section, const StateNames& names, const Table& p
 
 /// The samples and the bounces, in the order of their times; nothing where bounces are not located.
 FigureSamples path_of(const Scenario& scenario, const FigureSamples& samples, const Table& bounces) {
-  const auto walls = walls_among(scenario.request.variant);
+  const auto& walls = scenario.request.walls;
   if (!walls || walls->rule != WallRule::event || bounces.rows() == 0) return {};
   const std::span<const double> met = bounces["t"].numbers();
   const std::vector<std::vector<double>> met_q = by_coordinate(bounces, "q");
@@ -144,10 +144,10 @@ FigureSamples path_of(const Scenario& scenario, const FigureSamples& samples, co
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
   std::vector<std::pair<std::string, std::string>> facts{{"problem", problem_text(scenario)}};
-  if (const auto walls = walls_among(request.variant)) {
+  if (const auto walls = request.walls) {
     facts.emplace_back("walls", wall_rules()[static_cast<std::size_t>(walls->rule)]);
   }
-  for (const auto& [key, value] : without_walls(request.variant)) {
+  for (const auto& [key, value] : request.variant) {
     if (!scenario.problem->structure) facts.emplace_back(key, value);  // a typed problem's are long texts
   }
   const std::vector<std::string> changes = changes_on_the_way(scenario.text);  // one fact of the whole run no more
@@ -354,7 +354,7 @@ FigureSamples opening_of(const RunForFigure& run) {
       open || samples.energy.empty() ? std::numeric_limits<double>::infinity() : std::abs(samples.t.back());
   std::size_t sample = 0;
   Frame frame;
-  const auto walls = walls_among(scenario.request.variant);
+  const auto& walls = scenario.request.walls;
   if (walls && walls->rule == WallRule::event) {  // a line has its corners there
     simulation->tell_bounces([&](const Bounce& bounce) {
       opening.t.push_back(bounce.time);

@@ -26,7 +26,7 @@ namespace hamflow {
 namespace {
 
 bool rejects_steps(const Scenario& scenario) {
-  const auto walls = walls_among(scenario.request.variant);
+  const auto& walls = scenario.request.walls;
   return walls && walls->rule == WallRule::reject;
 }
 
@@ -44,11 +44,11 @@ std::string exact_return(const Scenario& scenario) {
   Request request = scenario.request;
   const std::string lattice = "run.arithmetic = \"lattice\"";
   request.arithmetic = "lattice";
-  auto walls = walls_among(request.variant);
+  auto walls = request.walls;
   const bool located = walls && walls->rule == WallRule::event;
   if (located) {
     walls->rule = WallRule::mirror;
-    put_among(*walls, request.variant);
+    request.walls = *walls;
   }
   for (const MethodEntry& entry : methods()) {
     const MethodSpec method{.name = entry.name};

@@ -66,17 +66,13 @@ bool has_parameter(const ProblemEntry& problem, const std::string& name) {
 Value::Table parameters_of(const Scenario& scenario) {
   Value::Table parameters;
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
-  const std::map<std::string, std::string> choices(scenario.problem->info.variant.begin(),
-                                                   scenario.problem->info.variant.end());
-  const auto without = without_walls(choices);
   for (const auto& [key, value] : scenario.problem->info.variant) {
-    if (!without.contains(key)) continue;
     // Those of the problem `formula` are its texts, which the scenario has; the values of parameters stand below.
     if (scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters) continue;
     const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
     set(parameters, key, is_number ? Value(std::stoi(value)) : Value(value));
   }
-  if (const auto walls = walls_among(scenario.request.variant)) {
+  if (const auto walls = scenario.request.walls) {
     if (scenario.request.problem == GasKeys::problem && without.at(GasKeys::container) == ContainerNames::box) {
       // The box says the rest.
       set(parameters, wall_keys().wall_rule.name, wall_rules()[static_cast<std::size_t>(walls->rule)]);
@@ -274,7 +270,7 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
     // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
-    const auto problem_entry = find_problem(request.problem, request.variant);
+    const auto problem_entry = find_problem(request);
     const ProblemEntry& problem = *problem_entry;
     const auto monitor = request.method.options.find(monitor_option);
     const bool follows_distance = monitor != request.method.options.end() && monitor->second == distance_monitor_name;
@@ -290,7 +286,7 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
   if (outcome == Outcome::lattice_overflow) {
     text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
                         std::ilogb(request.momentum_unit) + 8);
-    const auto problem_entry = find_problem(request.problem, request.variant);
+    const auto problem_entry = find_problem(request);
     const ProblemEntry& problem = *problem_entry;
     const auto has = [&](const char* name) {
       return std::any_of(problem.info.parameters.begin(), problem.info.parameters.end(),

@@ -51,7 +51,7 @@ std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, do
 /// Whether H does not depend on the coordinates, as far as states between the start and the end show: every method's
 /// step is then exact, however long it is. A wall whose rule rejects steps makes them inexact all the same.
 bool flies_freely(const Scenario& scenario, const Frame& end) {
-  const auto walls = walls_among(scenario.request.variant);
+  const auto& walls = scenario.request.walls;
   if (walls && (walls->rule == WallRule::reject || walls->rule == WallRule::soft)) return false;
   const std::vector<double>& start = scenario.start_q;
   if (scenario.problem->structure && scenario.problem->structure->time) return false;
@@ -183,7 +183,7 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
 /// steps of half a period and more cannot rely on what those do.
 void add_long_search(const Scenario& scenario, const Simulation& simulation, std::vector<Warning>& all) {
   const bool seeks = has_hard_walls(scenario.request) || scenario.section || !scenario.events.empty();
-  const auto walls = walls_among(scenario.request.variant);
+  const auto& walls = scenario.request.walls;
   const bool sees_ends_alone = walls && walls->rule == WallRule::reject;  // of steps
   if (!seeks || simulation.step() == 0 || (simulation.method().own_substeps && !sees_ends_alone)) return;
   if (std::any_of(all.begin(), all.end(), [](const Warning& each) { return each.kind == "long_step"; })) return;

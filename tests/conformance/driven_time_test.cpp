@@ -121,7 +121,7 @@ TEST(WallsOfElements, DoNotLetTheEnergyWalkOneWay) {
     r.variant = formula_choices(FormulaTexts{.coordinates = {"q"}, .hamiltonian = "p^2/2 + 9.81*q"});
     Walls walls;
     walls.intervals.push_back({"q", 0, "-1", ""});
-    put_among(walls, r.variant);
+    r.walls = walls;
     r.start.q = {"0"};
     r.start.p = {"0"};
     r.dt = dt;

@@ -78,7 +78,7 @@ TEST(ReferenceSolution, ClosedFormsAndIntegrationsAreNoFurtherApartThanTheySay) 
       EXPECT_LT(integrated.uncertainty.value, 1e-17);
       if (closed.kind != "closed form") continue;
       ++closed_forms;
-      const ProblemInfo& info = find_problem(request.problem, request.variant)->info;
+      const ProblemInfo& info = find_problem(request)->info;
       for (std::size_t i = 0; i < closed.end.size(); ++i) {
         double difference = std::strtod(closed.digits[i].c_str(), nullptr) - integrated.end[i];
         if (i < info.coordinates.size() && info.coordinates[i] == "phi") {
@@ -321,7 +321,7 @@ TEST(ReferenceSolution, ExactStatesAreRightNearDegenerateCases) {
     for (const int exponent : {2, 4, 7, 10, 14, 20, 27, 34, 40, 47}) {
       SCOPED_TRACE(std::string(d.name) + ", off by 2^-" + std::to_string(exponent));
       const Case c = d.at(std::ldexp(1.0, -exponent));
-      const auto problem_entry = find_problem(c.problem, c.variant);
+      const auto problem_entry = find_problem(c);
       const ProblemEntry& problem = *problem_entry;
       std::vector<double> q, p;
       for (const std::string& x : c.q) q.push_back(number_value(x));

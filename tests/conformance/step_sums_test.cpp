@@ -62,7 +62,7 @@ class Beside final : public Observer {
 };
 
 std::vector<NamedExpression> expressions_of(const Request& request, const std::vector<std::string>& texts) {
-  const auto problem_entry = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request);
   const ProblemEntry& problem = *problem_entry;
   std::vector<NamedExpression> all;
   for (const std::string& text : texts) {

@@ -19,7 +19,7 @@ using Rows = std::vector<std::vector<double>>;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 std::unique_ptr<StepMap> map_of(const Request& request) {
-  const auto problem_entry = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request);
   const ProblemEntry& problem = *problem_entry;
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
@@ -213,7 +213,7 @@ TEST(Walls, ASaltationMatrixThatIsLeftOutIsCaught) {
   bare.start.q.clear();
   bare.start.p.clear();
   Request free = request;
-  free.variant = without_walls(free.variant);
+  free.walls.reset();
   const WithoutSaltation mutant(map_of(request), map_of(free), bare);
   const Rows exact = differences(mutant, at_the_wall, 0.02, 1);
   EXPECT_LE(apart(map_of(request)->jacobian(at_the_wall, 0.02), exact), 16);

@@ -322,7 +322,7 @@ TEST(Walls, SoftWalls) {
     walls.rule = WallRule::soft;
     walls.strength = "1";
     walls.exponent = exponent;
-    put_among(walls, request.variant);
+    request.walls = walls;
     // An element keeps H only if force and energy are those of one function.
     const auto element = make_simulation(request);
     ASSERT_EQ(element->advance(2000), Outcome::done);
@@ -350,7 +350,7 @@ TEST(Walls, TheForceOfASoftWall) {
   walls.rule = WallRule::soft;
   walls.strength = "0.7";
   walls.exponent = "3";
-  put_among(walls, request.variant);
+  request.walls = walls;
   const auto simulation = make_simulation(request);
   ASSERT_EQ(simulation->advance(1), Outcome::done);
   const double x = (0.25 - 0.5) / 1.5;

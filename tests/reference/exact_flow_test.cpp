@@ -76,7 +76,7 @@ TEST_P(ExactFlow, ReferenceFlow) {
 }
 
 TEST_P(ExactFlow, Yoshida6ConvergesToIt) {
-  if (!find_problem(region_.problem, region_.variant)->accepts(parse_method("yoshida6"))) return;
+  if (!find_problem(region_)->accepts(parse_method("yoshida6"))) return;
   const auto map = step_map_on(region_, parse_method("yoshida6"));
   constexpr long double rounding = 4096 * 0x1p-63L;  // some hundred steps of some ten roundings: slopes end there
   long double previous = 0;
@@ -100,7 +100,7 @@ TEST_P(ExactFlow, ImplicitMethodsConvergeToIt) {
        {std::pair{"cg(2,auto)", 4}, std::pair{"cg(3,auto)", 6}, std::pair{"gauss(2)", 4}, std::pair{"gauss(3)", 6},
         std::pair{"gauss(4)", 8}, std::pair{"eg(1)", 2}, std::pair{"eg(2)", 4}, std::pair{"eg(3)", 6},
         std::pair{"lobatto-3a-3b(3)", 4}, std::pair{"lobatto-3a-3b(4)", 6}, std::pair{"discrete-gradient", 2}}) {
-    if (!find_problem(region_.problem, region_.variant)->accepts(parse_method(name))) continue;
+    if (!find_problem(region_)->accepts(parse_method(name))) continue;
     const auto map = step_map_on(region_, parse_method(name));
     long double previous = 0;
     double slope = 0;  // the last one that is not rounding: what follows the leading term is a quarter each halving

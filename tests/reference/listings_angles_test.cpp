@@ -72,7 +72,7 @@ TEST_P(LinearPendulumListing, SameStatesAndTheModalSolution) {
   const double size = std::max(std::fabs(doubles(data["q0"])[0]), std::fabs(doubles(data["q0"])[1]));
   compare(*simulation, data["cG1"], 1e-14 * size);
   EXPECT_EQ(simulation->effort().solves_max, 1);  // a linear system: one correction
-  const auto found_entry = find_problem(request.problem, request.variant);
+  const auto found_entry = find_problem(request);
   const ProblemEntry& entry = *found_entry;
   const Texts parameters = complete(entry.info, request.parameters);
   const Frame start = entry.start([&] {

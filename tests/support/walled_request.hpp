@@ -13,7 +13,7 @@ inline Request behind_walls(Request request, std::vector<Walls::Interval> interv
   Walls walls;
   walls.intervals = std::move(intervals);
   walls.rule = rule;
-  put_among(walls, request.variant);
+  request.walls = walls;
   return request;
 }
 

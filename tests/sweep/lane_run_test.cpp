@@ -57,7 +57,7 @@ void compare(const Measured& lane, const Measured& alone) {
 /// Members of one block, which has to hold them.
 void compare_block(const MemberFamily& family, std::span<const MemberStart> members, EnsembleBlock& block,
                    const Section& section, Tally& tally) {
-  const auto problem_entry = find_problem(family.request.problem, family.request.variant);
+  const auto problem_entry = find_problem(family.request);
   const ProblemEntry& problem = *problem_entry;
   const std::size_t n = members[0].q.size();
   std::vector<Request> requests;

@@ -160,7 +160,7 @@ TEST(FormulaRuns, WithTimeKeepTheOrderOfMethodsForQuadraticKineticEnergy) {
                                "p_x^2/2 + p_x*p_y/3 + p_y^2 + x^4/4 + y^2*(1 + sin(t)/2)/2 "
                                "+ x*y*cos(2*t)/3 - x*cos(t)"};
   Request r = request_of(FormulaKeys::problem, formula_choices(texts), {}, {"0.7", "-0.4"}, {"0.2", "0.5"}, "0.01");
-  EXPECT_TRUE(find_problem(r.problem, r.variant)->structure->quadratic_kinetic);
+  EXPECT_TRUE(find_problem(r)->structure->quadratic_kinetic);
   const auto end = [&](const std::string& method, int steps) {
     r.dt = "2/" + std::to_string(steps);
     return end_of(r, method, "double", steps);

@@ -22,7 +22,7 @@ Request chaos() {
 }
 
 std::shared_ptr<const StepMap> map_of(const Request& request) {
-  const auto problem_entry = find_problem(request.problem, request.variant);
+  const auto problem_entry = find_problem(request);
   const ProblemEntry& problem = *problem_entry;
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);

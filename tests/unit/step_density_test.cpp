@@ -152,7 +152,7 @@ TEST(StepDensity, KeepsTheOrderOnKepler) {
         request.method = spec;
         const std::int64_t steps = each.steps << k;
         request.dt = shortest(3.0 / static_cast<double>(steps));
-        const auto problem_entry = find_problem(request.problem, request.variant);
+        const auto problem_entry = find_problem(request);
         const ProblemEntry& problem = *problem_entry;
         const auto run = make_simulation(request);
         ASSERT_EQ(run->advance(steps), Outcome::done);
@@ -326,7 +326,7 @@ TEST(StepDensity, ComesBack) {
         request.arithmetic = arithmetic;
         if (!refusal(spec, arithmetic).empty()) continue;
         SCOPED_TRACE(describe(spec).name + " " + arithmetic);
-        const auto problem_entry = find_problem(request.problem, request.variant);
+        const auto problem_entry = find_problem(request);
         const ProblemEntry& problem = *problem_entry;
         const std::int64_t steps = digits_beyond_double(arithmetic) > 0 ? 60 : 300;
         const ReversalEvidence evidence = reversal_evidence(request, problem, steps, 300);
@@ -380,7 +380,7 @@ TEST(StepDensity, RecordedStepsHaveTheSameBits) {
           MethodSpec spec = parse_method(method);
           spec.options["step_control"] = "reversible";
           spec.options["monitor"] = monitor;
-          if (!refusal(spec, *find_problem(request.problem, request.variant)).empty()) continue;
+          if (!refusal(spec, *find_problem(request)).empty()) continue;
           request.method = spec;
           request.arithmetic = arithmetic;
           request.record = true;

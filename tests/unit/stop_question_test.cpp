@@ -35,7 +35,7 @@ class StopWithinAStep : public ::testing::TestWithParam<std::string> {};
 TEST_P(StopWithinAStep, IsAnsweredAndChangesNothing) {
   for (const char* problem : {"central-force", "henon-heiles"}) {
     const Request request = request_of(problem, GetParam());
-    if (!find_problem(request.problem, request.variant)->accepts(request.method)) continue;
+    if (!find_problem(request)->accepts(request.method)) continue;
     const auto simulation = make_simulation(request);
     const std::function<bool()> stops = [] { return false; };
     std::vector<std::byte> before;

@@ -48,7 +48,7 @@ void selected_volume(Study& study) {
   const ProblemEntry& problem = *problem_entry;
   const Texts given{{"masses", "[1, 1]"}, {"eps", "0.6"}};
   const auto map = problem.step_map({.problem = "t-tube",
-                                     .variant = {{"walls", ""}},
+                                     .variant = {},
                                      .parameters = complete(problem.info, given),
                                      .start = {},
                                      .method = parse_method("stv4")},

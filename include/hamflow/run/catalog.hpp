@@ -18,6 +18,7 @@
 #include "hamflow/run/method_family.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/step_map.hpp"
+#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -49,7 +50,8 @@ struct StartSpec {
 struct Request {
   std::string problem;
   std::map<std::string, std::string> variant;  // e.g. potential = kepler
-  Texts parameters;                            // missing ones take their defaults
+  std::optional<Walls> walls{};
+  Texts parameters;  // missing ones take their defaults
   StartSpec start;
   MethodSpec method;
   std::string dt = "0.1";
@@ -61,6 +63,8 @@ struct Request {
   bool record = true;  // steps are recorded and compiled where they can be; the bits are the same
 };
 
+inline bool has_hard_walls(const Request& request) { return request.walls && request.walls->hard(); }
+
 /// The derivatives of H in a state; dH/dp are the rates of change of the coordinates.
 struct EnergyGradient {
   std::vector<double> by_q;
@@ -71,6 +75,7 @@ struct EnergyGradient {
 struct ProblemEntry {
   ProblemInfo info;
   std::vector<std::string> momenta{};           // names; empty: momentum_name of the coordinates (run/state_names.hpp)
+  std::optional<Walls> walls{};                 // behind which the problem is
   std::optional<FormulaStructure> structure{};  // of a typed Hamiltonian: what was found from its expression
   std::size_t dimension = 0;                    // degrees of freedom; 0: as many as the start has coordinates
   /// What q and p have to be where they cannot have `size` numbers; empty where they can.
@@ -162,7 +167,11 @@ const MethodEntry& find_method(const std::string& name);
 /// The entry of a typed problem, or of one behind walls, is made here: it lives as long as somebody holds it.
 /// @throws Error with the nearest name when there is no such name
 std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
-                                                 const std::map<std::string, std::string>& variant);
+                                                 const std::map<std::string, std::string>& variant,
+                                                 const std::optional<Walls>& walls = std::nullopt);
+inline std::shared_ptr<const ProblemEntry> find_problem(const Request& request) {
+  return find_problem(request.problem, request.variant, request.walls);
+}
 /// The entry with these choices; what they leave open is chosen as a scenario would by default, or, where a scenario
 /// has to choose, as `new` does (ProblemInfo::default_choices, example_choices). @throws Error as find_problem does
 std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,

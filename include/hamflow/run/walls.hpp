@@ -1,13 +1,12 @@
-// Hard and soft walls on coordinates, as a scenario describes them. They are among the choices of a request
-// (Request::variant), so that whoever finds its problem finds it behind its walls.
+// Hard and soft walls on coordinates, as a scenario and a request describe them.
 #pragma once
 
-#include <map>
-#include <optional>
+#include <compare>
 #include <string>
 #include <vector>
 
-#include "hamflow/run/catalog.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/option_info.hpp"
 
 namespace hamflow {
 
@@ -29,24 +28,15 @@ struct Walls {
     std::size_t index = 0;   // among the coordinates
     std::string min;         // number expressions; empty: no wall on that side
     std::string max;
+    friend auto operator<=>(const Interval&, const Interval&) = default;
   };
   std::vector<Interval> intervals;
   WallRule rule = WallRule::event;
   std::string strength = "1";  // of soft walls
   std::string exponent = "2";  // of their force
   bool hard() const { return rule != WallRule::soft; }
+  friend auto operator<=>(const Walls&, const Walls&) = default;
 };
-
-/// The walls among choices; none where there are none.
-std::optional<Walls> walls_among(const std::map<std::string, std::string>& choices);
-inline bool has_hard_walls(const Request& request) {
-  const auto walls = walls_among(request.variant);
-  return walls && walls->hard();
-}
-/// Puts walls among choices.
-void put_among(const Walls& walls, std::map<std::string, std::string>& choices);
-/// The choices without walls.
-std::map<std::string, std::string> without_walls(std::map<std::string, std::string> choices);
 
 /// One side of an interval, in the numbers of a run.
 template <class R>

@@ -36,9 +36,14 @@ constexpr std::string_view name(Finding finding) {
 struct Region : RegionInfo {
   std::string problem;
   std::map<std::string, std::string> variant{};  // e.g. potential = kepler
-  bool of_bodies = false;                        // states are moved into the frame of their centre of mass
-  bool constrained = false;                      // states are moved onto the constraints
+  std::optional<Walls> walls{};
+  bool of_bodies = false;    // states are moved into the frame of their centre of mass
+  bool constrained = false;  // states are moved onto the constraints
 };
+
+inline std::shared_ptr<const ProblemEntry> find_problem(const Region& region) {
+  return find_problem(region.problem, region.variant, region.walls);
+}
 
 struct OrderMeasurement {
   static constexpr int fewest_points = 5;    // four halvings of h
