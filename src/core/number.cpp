@@ -274,6 +274,22 @@ std::string part(const NumberFormula& formula, std::size_t begin, std::size_t en
 
 }  // namespace
 
+bool is_literal(std::string_view text) {
+  const auto digits_from = [&](std::size_t at) {
+    while (at < text.size() && is_digit(text[at])) ++at;
+    return at;
+  };
+  std::size_t at = digits_from(0);
+  if (at == 0 || text.size() > longest) return false;
+  if (at < text.size() && text[at] == '.') at = digits_from(at + 1);
+  if (at + 1 < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    const std::size_t exponent = at + (text[at + 1] == '-' || text[at + 1] == '+' ? 2 : 1);
+    at = digits_from(exponent);
+    if (at == exponent) return false;
+  }
+  return at == text.size();
+}
+
 NumberFormula read_number(std::string_view text) { return NumberReader(text).read(); }
 
 void refuse_division_by_zero(const NumberFormula& formula, const NumberStep& step) {

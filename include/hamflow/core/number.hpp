@@ -7,6 +7,7 @@
 // so that a reader of options can pass it on after the name of its option. Columns count characters from 1.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -24,7 +25,11 @@ template <class R>
 R parse_decimal(std::string_view text);
 template <>
 inline double parse_decimal<double>(std::string_view text) {
-  return std::strtod(std::string(text).c_str(), nullptr);
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [behind, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc() && behind == end) return value;
+  return std::strtod(std::string(text).c_str(), nullptr);  // what rounds to 0 or to infinity
 }
 template <>
 inline long double parse_decimal<long double>(std::string_view text) {
@@ -78,6 +83,8 @@ struct NumberFormula {
   std::vector<NumberStep> steps;
 };
 
+/// Whether a text is one decimal literal, as most numbers are.
+bool is_literal(std::string_view text);
 /// @throws Error when the text is no formula of numbers
 NumberFormula read_number(std::string_view text);
 /// @throws Error always: the divisor of a division is 0
@@ -144,6 +151,11 @@ R carried_out(NumberAction action, const R& x, const R& y) {
 /// real number in R
 template <class R>
 R evaluate_number(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (detail::is_literal(text.substr(negative ? 1 : 0))) {
+    const R value = parse_decimal<R>(text.substr(negative ? 1 : 0));
+    if (abs(value) <= std::numeric_limits<R>::max()) return negative ? R(-value) : value;
+  }
   const detail::NumberFormula formula = detail::read_number(text);
   std::vector<R> stack;
   for (const detail::NumberStep& step : formula.steps) {
