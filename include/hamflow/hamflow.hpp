@@ -242,6 +242,7 @@
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/formula_functions.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/formula_problem.hpp"
 #include "hamflow/run/forwarding_functions.hpp"
 #include "hamflow/run/gas.hpp"
