@@ -5,7 +5,6 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "formula_keys.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
@@ -20,11 +19,6 @@ void add_once(std::vector<std::string>& list, const std::string& word) {
   if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
 }
 
-bool asks_for_typed_field(const std::string& problem, const std::map<std::string, std::string>& variant) {
-  const auto potential = variant.find(CentralKeys::key);
-  return problem == CentralKeys::problem && potential != variant.end() && potential->second == FormulaKeys::problem;
-}
-
 /// The entry of a problem with the choices given, the usual ones for those not given. @throws Error
 std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
   std::vector<std::string> names;
@@ -36,7 +30,10 @@ std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
       if (!entry.structure) add_once(choices[key], value);
     }
   }
-  if (choices.contains(CentralKeys::key)) add_once(choices[CentralKeys::key], FormulaKeys::problem);
+  for (const ProblemEntry& entry : typed_examples()) {
+    const std::string& key = entry.info.typed_choice;
+    if (entry.info.name == options.problem) add_once(choices[key], choice_of(entry.info, key));
+  }
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
     throw Error("found the problem '" + options.problem + "'; allowed " + joined(names) +
                 suggested_problem(options.problem));
@@ -56,18 +53,17 @@ std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
     }
     variant[key] = value;
   }
-  if (asks_for_typed_field(options.problem, variant)) {
-    const std::string chart =
-        variant.contains(FormulaKeys::coordinates) ? variant[FormulaKeys::coordinates] : "cartesian";
-    variant = central_formula_example(chart);
-    return usual_problem(options.problem, variant);
-  }
   const auto lacking = [&](const ProblemEntry& entry) {
     return std::find_if(variant.begin(), variant.end(), [&](const auto& choice) {
       return std::find(entry.info.variant.begin(), entry.info.variant.end(), std::pair(choice.first, choice.second)) ==
              entry.info.variant.end();
     });
   };
+  for (const ProblemEntry& entry : typed_examples()) {
+    const auto typed = variant.find(entry.info.typed_choice);
+    if (entry.info.name != options.problem || typed == variant.end()) continue;
+    if (lacking(entry) == variant.end()) return std::make_shared<const ProblemEntry>(entry);
+  }
   // A choice may be one of other choices alone: the dimension of a pendulum is one in Cartesian coordinates.
   const std::shared_ptr<const ProblemEntry> usual = usual_problem(options.problem, variant);
   const auto lacks = lacking(*usual);

@@ -6,11 +6,9 @@
 #include <span>
 
 #include "figure_kinds.hpp"
-#include "formula_keys.hpp"
-#include "gas_options.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/gas.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/walls.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
@@ -75,7 +73,7 @@ std::string degrees_of_freedom(const ProblemEntry& entry) {
 std::string typed_problem(const ProblemEntry& example) {
   std::string text =
       fmt::format("### {}\n\nA Hamiltonian as it is typed, e.g. `{}`.\n\n", example.info.name, example.info.formula);
-  text += table(formula_options());
+  text += table(keys_of(example.info));
   for (const std::string& sentence : formula_language()) text += "- " + sentence + "\n";
   return text + "\n`initial = { q, p }` with canonical momenta, or `{ q, v }` with velocities.\n\n";
 }
@@ -91,7 +89,7 @@ std::string problem(const ProblemEntry& entry) {
   std::string text = fmt::format("### {}{}\n\n{}\n\n", info.name, variant.empty() ? "" : ", " + variant, info.formula);
   text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n", degrees_of_freedom(entry),
                       joined(info.coordinates), info.reference);
-  std::vector<OptionInfo> keys = info.name == GasKeys::problem ? all_gas_options() : info.parameters;
+  std::vector<OptionInfo> keys(keys_of(info).begin(), keys_of(info).end());
   if (!info.frame.name.empty()) keys.push_back(info.frame);
   if (!info.velocities.name.empty()) keys.push_back(info.velocities);
   if (!keys.empty()) text += table(keys);
@@ -154,11 +152,15 @@ std::string page() {
       "2^-100 to 2^100, of both\nsigns, and between them where H comes near the energy; narrower dips are not seen. "
       "Where H oscillates, as cos(p), the\nstart is refused.\n\n";
   for (const ProblemEntry& entry : problems()) text += problem(entry);
-  text += fmt::format(
-      "### {}, {} = \"{}\"\n\nH = |p|^2/(2 mu) + V(r), in both coordinates, with `mass`, `initial`, `bodies` "
-      "and, where V\nis without t, `orbit` by energy and angular momentum.\n\n",
-      CentralKeys::problem, CentralKeys::key, FormulaKeys::problem);
-  text += table(central_formula_options());
+  for (const ProblemEntry& entry : typed_examples()) {
+    if (entry.to_reference) continue;
+    text += fmt::format(
+        "### {}, {} = \"formula\"\n\nAs it is typed, with any `{}`, e.g. {}. It starts by `initial`, `bodies` and, "
+        "where V is "
+        "without t,\nby `orbit` with energy and angular momentum.\n\n",
+        entry.info.name, entry.info.typed_choice, entry.info.chart_key, entry.info.formula);
+    text += table(entry.info.keys);
+  }
   const WallKeys& walls = wall_keys();
   text +=
       "### Walls, of any problem\n\nThose of `t-tube` are fixed; it takes their rule. Behind hard walls invariants "

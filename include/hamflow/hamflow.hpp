@@ -241,6 +241,7 @@
 #include "hamflow/run/expression_in_digits.hpp"
 #include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/formula_functions.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/formula_problem.hpp"
 #include "hamflow/run/forwarding_functions.hpp"
 #include "hamflow/run/gas.hpp"

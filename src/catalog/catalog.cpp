@@ -41,10 +41,8 @@ std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
   if (walls) return walled_problem(name, variant, *walls);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
-  std::vector<std::string> names;
   const ProblemEntry* same_name = nullptr;
   for (const ProblemEntry& entry : problems()) {
-    if (std::find(names.begin(), names.end(), entry.info.name) == names.end()) names.push_back(entry.info.name);
     if (entry.info.name != name) continue;
     same_name = &entry;
     const bool matches = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {
@@ -54,6 +52,10 @@ std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
     if (matches) return listed(entry);
   }
   if (same_name == nullptr) {
+    std::vector<std::string> names;
+    for (const ProblemEntry& entry : problems()) {
+      if (std::find(names.begin(), names.end(), entry.info.name) == names.end()) names.push_back(entry.info.name);
+    }
     throw Error("found the problem '" + name + "'; allowed " + joined(names) + suggestion(name, names));
   }
   const std::string wanted = joined(variant, [](const auto& choice) { return choice.first + " = " + choice.second; });

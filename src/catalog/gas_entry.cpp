@@ -27,6 +27,8 @@ using Words = std::map<std::string, std::string>;
 template <class R>
 using GasState = Start<R, dynamic>;
 
+constexpr const char* usual_pair = "lennard-jones";
+
 std::string choice(const Words& choices, const char* key, const char* usual) {
   const auto found = choices.find(key);
   return found == choices.end() ? usual : found->second;
@@ -46,7 +48,7 @@ struct Kind {
 
 Kind kind_of(const Words& given) {
   Kind kind;
-  kind.shape.pair = choice(given, Keys::pair, "lennard-jones");
+  kind.shape.pair = choice(given, Keys::pair, usual_pair);
   const std::string container = choice(given, Keys::container, ContainerNames::circle);
   const std::string cutoff = choice(given, Keys::cutoff_kind, CutoffNames::none);
   kind.shape.container = ContainerNames::kind(container);
@@ -350,6 +352,25 @@ bool accepts(const GasShape& shape, const MethodSpec& method) {
   });
 }
 
+/// The distance within which two particles repel each other, in the lengths of the positions: that of the least of a
+/// Lennard-Jones pair's energy, or its cut-off, where that is less; 0 of other laws.
+double repulsion_of(const Kind& kind, const Parameters<double>& given) {
+  if (kind.shape.pair != usual_pair) return 0;
+  const bool usual_form = given.has("sigma") || given.has("epsilon");
+  double least = usual_form ? std::pow(2.0, 1.0 / 6) * (given.has("sigma") ? given["sigma"] : 1) : 1;
+  if (given.has(Keys::cutoff)) least = std::min(least, given[Keys::cutoff]);
+  return least / given[Keys::scale];
+}
+
+ParticleFacts particles_of(const Kind& kind, const Texts& parameters) {
+  const Parameters<double> given(parameters);
+  ParticleFacts all{.space = static_cast<std::size_t>(given[Keys::dimension]), .masses = given.list(Keys::masses)};
+  if (given.has(Keys::size)) all.edges = given.list(Keys::size);
+  if (given.has(Keys::radius)) all.radius = given[Keys::radius];
+  all.repulsion = repulsion_of(kind, given);
+  return all;
+}
+
 void add_functions(ProblemEntry& e, const Kind& kind) {
   const GasShape& shape = kind.shape;
   const auto gas = [shape](const Texts& parameters, std::size_t size) {
@@ -415,6 +436,9 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
     return sum <= std::numeric_limits<double>::max();
   };
   e.has_pairwise_forces = true;
+  e.has_cutoff = shape.cutoff != CutoffKind::none;
+  e.container = kind.choices.at(Keys::container);
+  e.particles = [kind](const Texts& parameters) { return particles_of(kind, parameters); };
   e.invariant_sizes = [gas](const Texts& parameters, std::size_t size) {
     const auto sizes = gas(parameters, size).invariant_sizes();
     return std::vector<std::size_t>(sizes.begin(), sizes.end());
@@ -443,6 +467,9 @@ ProblemEntry entry_of(const Words& choices) {
   info.reference = "Sonnleitner2010, ch. 1.7, 3a";
   info.coordinates = {"x1", "y1", "(z1)", "x2", "..."};
   info.parameters = parameters_of(kind);
+  info.keys = all_gas_options();
+  const GasOptions& o = gas_options();
+  info.file_key = o.file.name;
   info.invariants = invariants_of(kind.shape.container);
   // Three particles near their distance of equilibrium, away from the wall.
   info.region = {.parameters = {{Keys::radius, "3"}},
@@ -450,6 +477,12 @@ ProblemEntry entry_of(const Words& choices) {
                  .spread = 0.03,
                  .step = 0.011,
                  .time = 1.3};
+  info.example.keys = {{o.particles_per_side.name, "5"},
+                       {o.start.name, ""},
+                       {o.seed.name, ""},  // a second is enough
+                       {o.pair.name, ""},
+                       {o.scale.name, ""},
+                       {o.container.name, ""}};
   add_functions(e, kind);
   return e;
 }

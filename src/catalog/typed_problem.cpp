@@ -5,6 +5,7 @@
 
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/problems/support/potential.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "made_entries.hpp"
 #include "typed_potential.hpp"
 
@@ -54,6 +55,7 @@ ProblemEntry central_entry(const Choices& choices) {
   info.name = CentralKeys::problem;
   for (const auto& [key, text] : choices) info.variant.emplace_back(key, text);
   info.chart_key = FormulaKeys::coordinates;
+  info.typed_choice = CentralKeys::key;
   info.formula = std::string("H = ") + (polar ? "(p_r^2 + p_phi^2/r^2)" : "|p|^2") +
                  "/(2 mu) + V(r), V(r) = " + choices.at(FormulaKeys::central_potential);
   info.reference = "Gross1999, (2.45)-(2.60)";
@@ -157,7 +159,25 @@ ProblemEntry formula_example() {
     parameter.default_value = texts.parameters.at(parameter.name);
   }
   entry.info.region = {.parameters = texts.parameters, .centre = {0.1, -0.15, 0.2, 0.15}, .spread = 0.05};
+  entry.info.keys = formula_options();
+  entry.info.example.keys = {
+      {FormulaKeys::coordinates, ""}, {FormulaKeys::hamiltonian, ""}, {FormulaKeys::parameters, ""}};
   return entry;
+}
+
+std::span<const ProblemEntry> typed_examples() {
+  static const std::vector<ProblemEntry> all = [] {
+    const std::vector<OptionInfo>& keys = central_formula_options();
+    const std::string& potential = find_option(keys, FormulaKeys::central_potential)->example;
+    std::vector<ProblemEntry> entries;
+    for (const char* const chart : {"cartesian", CentralKeys::polar}) {
+      entries.push_back(central_entry(central_formula_choices(potential, {{"k", "1"}, {"a", "0.01"}}, chart)));
+      entries.back().info.keys = keys;
+      for (const OptionInfo& key : keys) entries.back().info.example.keys[key.name];
+    }
+    return entries;
+  }();
+  return all;
 }
 
 }  // namespace hamflow

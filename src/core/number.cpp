@@ -7,6 +7,22 @@
 
 namespace hamflow {
 
+bool is_literal(std::string_view text) {
+  const auto digits_from = [&](std::size_t at) {
+    while (at < text.size() && is_digit(text[at])) ++at;
+    return at;
+  };
+  std::size_t at = digits_from(0);
+  if (at == 0 || text.size() > 1'000'000) return false;
+  if (at < text.size() && text[at] == '.') at = digits_from(at + 1);
+  if (at + 1 < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    const std::size_t exponent = at + (text[at + 1] == '-' || text[at + 1] == '+' ? 2 : 1);
+    at = digits_from(exponent);
+    if (at == exponent) return false;
+  }
+  return at == text.size();
+}
+
 template double evaluate_number<double>(std::string_view);
 template long double evaluate_number<long double>(std::string_view);
 

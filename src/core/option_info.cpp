@@ -171,7 +171,7 @@ std::string toml_text(const OptionInfo& option, const std::string& text) {
   return "[" + joined(parts) + "]";
 }
 
-const OptionInfo* find_option(const std::vector<OptionInfo>& options, const std::string& name) {
+const OptionInfo* find_option(std::span<const OptionInfo> options, const std::string& name) {
   const auto found = std::find_if(options.begin(), options.end(), [&](const OptionInfo& o) { return o.name == name; });
   return found == options.end() ? nullptr : &*found;
 }

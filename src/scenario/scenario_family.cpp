@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "method_keys.hpp"
 #include "scenario_reader.hpp"
@@ -20,6 +21,7 @@ struct ScenarioFamily::Impl {
   Document document;
   std::vector<toml::table> values;
   std::vector<Complaint> complaints;
+  bool is_read = false;
 };
 
 ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name, const std::vector<std::string>& sets)
@@ -56,7 +58,7 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
     if (!wrong.empty()) reading.complaints.push_back({impl_->name, 0, 0, paths[i], wrong});
   }
   if (!reading.complaints.empty()) return reading;
-  drop_excluded(impl_->document.root);  // the same keys for every member
+  if (!std::exchange(impl_->is_read, true)) drop_excluded(impl_->document.root);  // the same keys for every member
   ScenarioReader reader(impl_->document, impl_->name, reading.complaints);
   Scenario scenario = reader.read();
   reading.no_start = reader.no_start();

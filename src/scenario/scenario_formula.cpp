@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "column_names.hpp"
-#include "formula_keys.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 
@@ -56,102 +56,8 @@ const Choices& remembered_choices(const FormulaTexts& texts) {
 
 }  // namespace
 
-const std::vector<OptionInfo>& central_formula_options() {
-  static const std::vector<OptionInfo> options{{.name = FormulaKeys::central_potential,
-                                                .meaning = "V of r and the parameters",
-                                                .type = OptionType::text,
-                                                .required = true,
-                                                .condition = "with potential = \"formula\"",
-                                                .example = "-k/r - a/r^3"},
-                                               {.name = FormulaKeys::parameters,
-                                                .meaning = "numbers and lists by name; m[1] is the first of a list",
-                                                .type = OptionType::table,
-                                                .unset = "none",
-                                                .condition = "with potential = \"formula\"",
-                                                .example = "{ k = 1, a = 0.01 }"}};
-  return options;
-}
-
-Choices central_formula_example(const std::string& coordinates) {
-  return central_formula_choices(central_formula_options().front().example, {{"k", "1"}, {"a", "0.01"}}, coordinates);
-}
-
-const OptionInfo& constraint_form_option() {
-  static const OptionInfo option{
-      .name = FormulaKeys::constraint_form,
-      .default_value = FormulaKeys::manifold,
-      .meaning =
-          "manifold: steps that end on g(q) = 0, by rattle and rattle4; multiplier: the field whose multipliers "
-          "are functions of the state, by rk4, dop853 and taylor, which drift off",
-      .type = OptionType::word,
-      .words = {FormulaKeys::manifold, FormulaKeys::multiplier},
-      .condition = "with constraints"};
-  return option;
-}
-
-const std::vector<OptionInfo>& formula_options() {
-  using Keys = FormulaKeys;
-  static const std::vector<OptionInfo> options{
-      {.name = Keys::coordinates,
-       .meaning = "their names; x[n], with a number or a whole parameter n, stands for x[1] to x[n]",
-       .type = OptionType::word_list,
-       .required = true,
-       .example = "[x, y]"},
-      {.name = Keys::momenta,
-       .meaning = "their names",
-       .type = OptionType::word_list,
-       .unset = "p of q, p1 of q1, p_x of x, p_x[1] of x[1]",
-       .example = "[p_x, p_y]"},
-      {.name = Keys::hamiltonian,
-       .meaning = "H, of coordinates, momenta, parameters and t",
-       .type = OptionType::text,
-       .unset = "the sum of kinetic and potential",
-       .example = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y"},
-      {.name = Keys::kinetic,
-       .meaning = "T, of the momenta",
-       .type = OptionType::text,
-       .unset = "found in hamiltonian",
-       .condition = "in place of hamiltonian",
-       .example = "(p_x^2 + p_y^2)/(2*m)"},
-      {.name = Keys::potential,
-       .meaning = "V, of the coordinates",
-       .type = OptionType::text,
-       .unset = "found in hamiltonian",
-       .condition = "in place of hamiltonian",
-       .example = "k*(x^2 + y^2)/2 + x^2*y"},
-      {.name = Keys::parameters,
-       .meaning = "numbers and lists by name; m[1] is the first of a list",
-       .type = OptionType::table,
-       .unset = "none",
-       .example = "{ k = 1, m = 1 }"},
-      {.name = Keys::invariants,
-       .meaning = "what is watched beside H, formulas by name",
-       .type = OptionType::table,
-       .unset = "none",
-       .example = "{ angular_momentum = \"x*p_y - y*p_x\" }"},
-      {.name = Keys::constraints,
-       .meaning = "functions g of the coordinates and parameters that the motion keeps at 0; for H = p^T M^-1 p/2 + "
-                  "V(q)",
-       .type = OptionType::word_list,
-       .unset = "none",
-       .example = "[x^2 + y^2 - 1]"},
-      constraint_form_option()};
-  return options;
-}
-
-const std::vector<std::string>& formula_language() {
-  static const std::vector<std::string> sentences{
-      "a formula: + - * / ^ (** is ^; to the right; -x^2 = -(x^2)), sqrt exp log sin cos tan asin acos atan atan2 sinh "
-      "cosh "
-      "tanh abs, pi, t for the time, names of coordinates, momenta and parameters",
-      "let r = sqrt(x^2 + y^2), u = 1/r in ... names what occurs several times; sum(i, 1, n - 1, (x[i+1] - x[i])^2) "
-      "sums"};
-  return sentences;
-}
-
-bool is_typed_problem(TomlTable& table, const std::string& name) {
-  if (name == FormulaKeys::problem) return true;
-  return name == CentralKeys::problem && table.plain_string(CentralKeys::key) == FormulaKeys::problem;
+bool has_typed_choice(TomlTable& table, const ProblemInfo& info) {
+  return !info.typed_choice.empty() && table.plain_string(info.typed_choice) == FormulaKeys::problem;
 }
 
 /// Parameters with names of the user.
@@ -319,18 +225,20 @@ void ScenarioReader::tell_other_formulas(TomlTable& table, FormulaTexts texts, s
 }
 
 /// The entry of what was typed.
-void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& name) {
+void ScenarioReader::read_typed_problem(TomlTable& table, const ProblemEntry& listed) {
   Request& request = scenario_.request;
+  const std::string& name = listed.info.name;
+  const bool whole = listed.structure.has_value();
   std::optional<FormulaTexts> texts;
   try {
-    if (name == FormulaKeys::problem) {
+    if (whole) {
       texts = read_formula_texts(table);
       if (!texts) return;
       request.parameters = texts->parameters;
       request.variant = remembered_choices(*texts);
     } else {
-      (void)table.plain_string(CentralKeys::key);
-      const auto potential = table.text(central_formula_options().front());
+      (void)table.plain_string(listed.info.typed_choice);
+      const auto potential = table.text(*find_option(central_formula_options(), FormulaKeys::central_potential));
       request.parameters = read_typed_parameters(table);
       const std::vector<std::string> words = choices_of_key(name, FormulaKeys::coordinates);
       const auto chart = table.text(
@@ -345,8 +253,8 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
     scenario_.problem = find_problem(name, request.variant);
     if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
-    if (texts && name == FormulaKeys::problem) note_standing_still(*texts);
-    if (texts && name == FormulaKeys::problem && scenario_.problem->structure && scenario_.problem->structure->time) {
+    if (whole) note_standing_still(*texts);
+    if (whole && scenario_.problem->structure->time) {
       driven_hamiltonian_ =
           !texts->hamiltonian.empty() ? texts->hamiltonian : "(" + texts->kinetic + ") + (" + texts->potential + ")";
     }

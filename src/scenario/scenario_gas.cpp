@@ -6,7 +6,6 @@
 #include <span>
 
 #include "gas_checks.hpp"
-#include "gas_options.hpp"
 #include "hamflow/core/hash.hpp"
 #include "hamflow/methods/itoh_abe.hpp"
 #include "hamflow/problems/support/container.hpp"
@@ -192,7 +191,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
     return;
   }
   try {
-    scenario_.problem = find_problem(GasKeys::problem, request.variant);
+    scenario_.problem = find_problem(request.problem, request.variant);
   } catch (const Error& error) {
     table.complain(GasKeys::pair, error.what());
     return;
@@ -406,6 +405,115 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
   }
 }
 
+/// A gas whose start nobody typed: the particles are counted, and it is their masses that may be too many or too few.
+bool ScenarioReader::check_masses(TomlTable& table) {
+  const Request& request = scenario_.request;
+  const std::size_t size = request.start.q.size();
+  if (scenario_.problem->refused_size(request.parameters, size).empty()) return true;
+  const auto space = static_cast<std::size_t>(number_value(request.parameters.at(GasKeys::dimension)));
+  table.complain(GasKeys::masses, "found " + std::to_string(list_parts(request.parameters.at(GasKeys::masses)).size()) +
+                                      " numbers; allowed one, or " + std::to_string(size / space) +
+                                      ", one for each particle");
+  return false;
+}
+
+namespace {
+
+/// The numbers of the particles with which a refusal begins: "particles 1 and 3 at", "particle 2 at", "y2 = 1 beyond".
+std::vector<std::size_t> particles_of(const std::string& why) {
+  const std::size_t end = std::min({why.find(" at "), why.find(" = "), why.size()});
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < end; ++i) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(why[i])) != 0;
+    if (!digit) continue;
+    std::size_t length = 0;
+    all.push_back(std::stoull(why.substr(i), &length));
+    i += length;
+  }
+  return all;
+}
+
+/// The key of what a particle of which this is told is beyond, or whose images meet; empty where it is none.
+std::string key_of_edge(const std::string& why, bool has_walls) {
+  const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
+  const GasOptions& gas = gas_options();
+  const std::string inside = gas.container.name + ".";
+  if (tells(" from the middle, on the soft wall")) return inside + gas.of_container.radius.name;
+  if (tells(" beyond the wall at ")) return has_walls ? wall_keys().walls.name : inside + gas.of_container.size.name;
+  return tells(" at images of one point") ? inside + gas.of_container.size.name : "";
+}
+
+}  // namespace
+
+/// At the key that says where the particles begin; of a start in a CSV with the lines of those that are named.
+void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& usual, std::string message) {
+  const GasOptions& gas = gas_options();
+  // Of a start that nobody typed the container is the cause, and so it is where it alone was changed from outside.
+  const std::string start = table.has("initial") ? "initial" : gas.start.name;
+  const std::string edge = key_of_edge(message, table.has(wall_keys().walls.name));
+  const std::string holder = edge.substr(0, edge.find('.'));
+  const auto is_outside = [&](const std::string& key) { return table.has(key) && touched(*table.node().get(key)); };
+  if (!edge.empty() && (!table.has(start) || (is_outside(holder) && !is_outside(start)))) {
+    return table.complain_in(edge, message);
+  }
+  if (table.has("initial")) return table.complain(usual, message);
+  if (table.plain_string(gas.start.name) != GasStarts::file) return table.complain(gas.start.name, message);
+  std::vector<std::string> lines;
+  for (const std::size_t particle : particles_of(message)) {
+    if (particle > 0 && particle <= start_lines_.size()) lines.push_back(std::to_string(start_lines_[particle - 1]));
+  }
+  if (!lines.empty()) {
+    const std::filesystem::path file =
+        std::filesystem::path(scenario_.file).parent_path() / table.plain_string(gas.file.name).value_or("");
+    message.insert(std::min(message.find("; allowed"), message.size()),
+                   std::string(lines.size() == 1 ? ", in line " : ", in lines ") + joined(lines, " and ") + " of " +
+                       file.string());
+  }
+  table.complain(gas.file.name, message);
+}
+
+/// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units. One that is
+/// not is rounded, as the start is, unless nothing is left of it.
+void ScenarioReader::round_edges(TomlTable& table) {
+  Request& request = scenario_.request;
+  const auto& refused = scenario_.problem->refused_parameters;
+  if (!refused(request.parameters).second.empty()) return;  // complained about
+  const std::string& key = run_keys().lattice.name;
+  const bool given = table.has(key) && table.table(key).has(lattice_keys().position.name);
+  const auto complain = [&](const std::string& message) {
+    if (!given) return table.complain(key, message);
+    table.table(key).complain(lattice_keys().position.name, message);
+  };
+  const double unit = request.position_unit;
+  const std::vector<std::string> typed = list_parts(request.parameters.at(GasKeys::size));
+  std::vector<std::string> edges;
+  double moved = 0;
+  for (const std::string& text : typed) {
+    const double edge = number_value(text);
+    const double rounded = std::nearbyint(edge / unit) * unit;
+    const double by = std::abs(rounded - edge);
+    if (rounded == 0) {
+      complain("found a unit of " + shortest(unit) + (given ? "" : ", the usual one of this start,") +
+               " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
+               " units, of which nothing would be left; allowed units far below the edges, such as \"2^-52\"");
+      return;
+    }
+    moved = std::max(moved, by);
+    edges.push_back(shortest(rounded));
+  }
+  if (moved == 0) return;
+  Texts parameters = request.parameters;
+  parameters[GasKeys::size] = "[" + joined(edges) + "]";
+  if (const auto [wrong, message] = refused(parameters); !message.empty()) {
+    complain("found a unit of " + shortest(unit) + ", whole numbers of which are edges of " + joined(edges) +
+             ", too short for problem." + wrong + " = " + request.parameters.at(GasKeys::cutoff) + "; " + message);
+    return;
+  }
+  request.parameters = std::move(parameters);
+  scenario_.notes.push_back("the edges of the periodic box are moved by up to " + shortest(moved) +
+                            ", to whole units of the lattice");
+}
+
 /// Hard walls at +-size/2 of every coordinate. Mirrors by default: with the rule `event` the bounce of one particle
 /// would split the step of all.
 void ScenarioReader::read_box(TomlTable& table) {
@@ -437,7 +545,7 @@ void ScenarioReader::read_box(TomlTable& table) {
     walls.intervals.push_back({names[i], i, "-" + half, half});
   }
   scenario_.request.walls = walls;
-  scenario_.problem = find_problem(GasKeys::problem, scenario_.request.variant);
+  scenario_.problem = find_problem(scenario_.request);
 }
 
 namespace {

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "hamflow/problems/support/container.hpp"
-#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -28,7 +27,8 @@ void ScenarioReader::usual_units() {
     return std::ldexp(1.0, -52 + (exponent < coarsest || exponent > 0 ? exponent : 0));
   };
   Request& request = scenario_.request;
-  const bool gas = request.problem == GasKeys::problem;  // whose pairs repel each other before they come near
+  // Particles in a container repel each other before they come near.
+  const bool gas = scenario_.problem != nullptr && scenario_.problem->particles;
   const bool pairwise =
       !gas && scenario_.problem != nullptr && scenario_.problem->has_pairwise_forces && !scenario_.start_q.empty();
   // Positions behind a mirror, as far from it as those in front, are exact in double, too.
@@ -44,9 +44,8 @@ void ScenarioReader::usual_units() {
     request.position_unit = unit_for(largest(positions), -9);
     request.momentum_unit = unit_for(largest(scenario_.start_p), -9);
     if (!gas) return;
-    const auto dimension = request.parameters.find(GasKeys::dimension);
-    const bool in_space = dimension != request.parameters.end() && number_value(dimension->second) == 3;
-    const auto bits = static_cast<int>(std::bit_width(scenario_.start_q.size() / (in_space ? 3 : 2)));
+    const std::size_t space = scenario_.problem->particles(request.parameters).space;
+    const auto bits = static_cast<int>(std::bit_width(scenario_.start_q.size() / space));
     if (bits > 10) request.momentum_unit = std::ldexp(request.momentum_unit, bits - 8);
     return;
   }
@@ -63,51 +62,6 @@ void ScenarioReader::usual_units() {
   const double to_come = factor * std::sqrt(std::abs(potential) / (energy_with(factor) - potential));
   request.position_unit = unit_for(largest(positions), 0);
   request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
-}
-
-/// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units. One that is
-/// not is rounded, as the start is, unless nothing is left of it.
-void ScenarioReader::round_edges(TomlTable& table) {
-  Request& request = scenario_.request;
-  const auto container = request.variant.find(GasKeys::container);
-  if (container == request.variant.end() || container->second != ContainerNames::periodic) return;
-  if (scenario_.problem == nullptr || request.problem != GasKeys::problem) return;  // complained about
-  const auto& refused = scenario_.problem->refused_parameters;
-  if (!refused(request.parameters).second.empty()) return;  // likewise
-  const std::string& key = run_keys().lattice.name;
-  const bool given = table.has(key) && table.table(key).has(lattice_keys().position.name);
-  const auto complain = [&](const std::string& message) {
-    if (!given) return table.complain(key, message);
-    table.table(key).complain(lattice_keys().position.name, message);
-  };
-  const double unit = request.position_unit;
-  const std::vector<std::string> typed = list_parts(request.parameters.at(GasKeys::size));
-  std::vector<std::string> edges;
-  double moved = 0;
-  for (const std::string& text : typed) {
-    const double edge = number_value(text);
-    const double rounded = std::nearbyint(edge / unit) * unit;
-    const double by = std::abs(rounded - edge);
-    if (rounded == 0) {
-      complain("found a unit of " + shortest(unit) + (given ? "" : ", the usual one of this start,") +
-               " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
-               " units, of which nothing would be left; allowed units far below the edges, such as \"2^-52\"");
-      return;
-    }
-    moved = std::max(moved, by);
-    edges.push_back(shortest(rounded));
-  }
-  if (moved == 0) return;
-  Texts parameters = request.parameters;
-  parameters[GasKeys::size] = "[" + joined(edges) + "]";
-  if (const auto [wrong, message] = refused(parameters); !message.empty()) {
-    complain("found a unit of " + shortest(unit) + ", whole numbers of which are edges of " + joined(edges) +
-             ", too short for problem." + wrong + " = " + request.parameters.at(GasKeys::cutoff) + "; " + message);
-    return;
-  }
-  request.parameters = std::move(parameters);
-  scenario_.notes.push_back("the edges of the periodic box are moved by up to " + shortest(moved) +
-                            ", to whole units of the lattice");
 }
 
 void ScenarioReader::read_lattice(TomlTable& table) {
@@ -138,7 +92,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     if (on_lattice) usual_units();
   }
   if (!on_lattice) return;
-  round_edges(table);
+  if (scenario_.problem != nullptr && scenario_.problem->container == ContainerNames::periodic) round_edges(table);
   const auto rounding = [](const std::vector<double>& values, double unit) {
     double most = 0;
     for (const double x : values) most = std::max(most, std::abs(std::remainder(x, unit)));

@@ -3,7 +3,6 @@
 
 #include "column_names.hpp"
 #include "figure_kinds.hpp"
-#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -21,6 +20,15 @@ void ScenarioReader::read_output(TomlTable& table) {
                    "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
   }
   read_observables(table);
+  const FigureFacts facts = scenario_.figures.empty() ? FigureFacts() : figure_facts();
+  for (const std::string& kind : scenario_.figures) {
+    const std::string why_not = refused_figure(kind, facts);
+    if (!why_not.empty()) table.complain(key, why_not);
+  }
+  table.finish();
+}
+
+FigureFacts ScenarioReader::figure_facts() const {
   FigureFacts facts{.degrees_of_freedom = scenario_.start_q.size(),
                     .diagnostics = has_method() && describe(scenario_.request.method).diagnostics,
                     .section = scenario_.section.has_value(),
@@ -33,15 +41,11 @@ void ScenarioReader::read_output(TomlTable& table) {
                              std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
                                return invariant.components == Components::space;
                              }));
-    facts.gas = scenario_.request.problem == GasKeys::problem;
+    facts.gas = static_cast<bool>(scenario_.problem->particles);
     facts.bodies_in_space = facts.bodies_in_space || facts.gas;
     facts.particles = facts.bodies_in_space && scenario_.problem->dimension == 0;
   }
-  for (const std::string& kind : scenario_.figures) {
-    const std::string why_not = refused_figure(kind, facts);
-    if (!why_not.empty()) table.complain(key, why_not);
-  }
-  table.finish();
+  return facts;
 }
 
 /// A name that may stand in files and figures beside those of the state.

@@ -1,9 +1,7 @@
 // [problem]: which one, and its parameters.
 #include <algorithm>
 
-#include "formula_keys.hpp"
-#include "gas_options.hpp"
-#include "hamflow/run/gas.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "meant.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -15,9 +13,6 @@ std::vector<std::string> problem_names() {
   std::vector<std::string> names;
   for (const ProblemEntry& entry : problems()) {
     if (std::find(names.begin(), names.end(), entry.info.name) == names.end()) names.push_back(entry.info.name);
-  }
-  if (std::find(names.begin(), names.end(), FormulaKeys::problem) == names.end()) {
-    names.emplace_back(FormulaKeys::problem);
   }
   return names;
 }
@@ -32,7 +27,7 @@ const OptionInfo& problem_name_key() {
 
 /// Whether the keys of [problem] that belong to an entry of the catalogue have this one; those that select it aside.
 bool has_key(const ProblemInfo& info, const std::string& key) {
-  if (find_option(info.parameters, key) != nullptr) return true;
+  if (find_option(keys_of(info), key) != nullptr) return true;
   if (!info.frame.name.empty() && key == info.frame.name) return true;
   if (!info.start_key.empty()) {
     return key == info.start_key || std::any_of(info.starts.begin(), info.starts.end(), [&](const StartInfo& start) {
@@ -49,21 +44,21 @@ bool is_problem_key(const std::string& key) {
        {std::string("initial"), walls.walls.name, walls.wall_rule.name, walls.strength.name, walls.exponent.name}) {
     if (key == each) return true;
   }
-  for (const auto& options : {all_gas_options(), formula_options(), central_formula_options()}) {
-    if (find_option(options, key) != nullptr) return true;
-  }
-  return std::any_of(problems().begin(), problems().end(), [&](const ProblemEntry& entry) {
+  const auto has = [&](const ProblemEntry& entry) {
     return has_key(entry.info, key) || !choice_of(entry.info, key).empty();
-  });
+  };
+  return std::any_of(problems().begin(), problems().end(), has) ||
+         std::any_of(typed_examples().begin(), typed_examples().end(), has);
 }
 
 /// With which other choices of its problem a key goes that the chosen ones do not have: 'with potential = "power"';
 /// empty where there are none.
 std::string other_choices_with(const std::string& name, const Choices& chosen, const std::string& key) {
-  for (const OptionInfo& option : name == GasKeys::problem       ? all_gas_options()
-                                  : name == CentralKeys::problem ? central_formula_options()
-                                                                 : std::vector<OptionInfo>()) {
-    if (option.name == key && !option.condition.empty()) return option.condition;
+  for (const auto& entries : {problems(), typed_examples()}) {
+    for (const ProblemEntry& entry : entries) {
+      const OptionInfo* const option = entry.info.name == name ? find_option(entry.info.keys, key) : nullptr;
+      if (option != nullptr && !option->condition.empty()) return option->condition;
+    }
   }
   std::vector<std::string> selecting;
   std::map<std::string, std::vector<std::string>> values;  // of each selecting key, where the key is
@@ -106,19 +101,18 @@ void ScenarioReader::read_problem(TomlTable& table) {
     return;
   }
   scenario_.request.problem = *name;
-  const bool typed = is_typed_problem(table, *name);
-  const bool gas = *name == GasKeys::problem;
-  gas ? read_gas(table) : typed ? read_typed_problem(table, *name) : read_variant(table, *name);
-  if (scenario_.problem == nullptr && gas) return;  // all that is wrong was told
+  const std::shared_ptr<const ProblemEntry> listed = find_problem(*name, {});
+  const bool typed = listed->structure || has_typed_choice(table, listed->info);
+  const bool particles = static_cast<bool>(listed->particles);
+  particles ? read_gas(table) : typed ? read_typed_problem(table, *listed) : read_variant(table, *name);
   if (scenario_.problem == nullptr) {
-    read_uncertain(table, *name);
+    if (!particles) read_uncertain(table, *name);  // else all that is wrong was told
     return;
   }
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
-    if (gas) break;
-    if (typed && scenario_.request.parameters.contains(parameter.name)) continue;  // among those of the user
+    if (scenario_.request.parameters.contains(parameter.name)) continue;  // was read with the entry
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
       scenario_.request.parameters[parameter.name] = *text;
     }
@@ -137,8 +131,8 @@ void ScenarioReader::read_problem(TomlTable& table) {
   read_initial(table);
   read_frame(table);
   read_walls(table);
-  for (const std::string& other : table.keys()) {
-    const std::string with = table.knows(other) ? "" : other_choices_with(*name, scenario_.request.variant, other);
+  for (const std::string& other : table.unknown_keys()) {
+    const std::string with = other_choices_with(*name, scenario_.request.variant, other);
     if (with.empty()) continue;
     table.complain(other, table.found(other) + "; allowed " + with);
     table.know(other);
@@ -215,47 +209,58 @@ std::string where_allowed(const std::string& name, const std::string& key) {
   }
   return "nothing";
 }
+
+/// The keys that select among the entries of a name, with their words and, where a scenario need not choose, the
+/// default.
+const std::vector<OptionInfo>& selecting_keys(const std::string& name) {
+  static const std::map<std::string, std::vector<OptionInfo>> all = [] {
+    std::map<std::string, std::vector<OptionInfo>> found;
+    for (const ProblemEntry& entry : problems()) {
+      std::vector<OptionInfo>& keys = found[entry.info.name];
+      for (const auto& [key, value] : entry.info.variant) {
+        const auto named = [&key = key](const OptionInfo& option) { return option.name == key; };
+        const auto at = std::find_if(keys.begin(), keys.end(), named);
+        OptionInfo& option =
+            at != keys.end() ? *at : keys.emplace_back(OptionInfo{.name = key, .type = OptionType::word});
+        if (std::find(option.words.begin(), option.words.end(), value) == option.words.end()) {
+          option.words.push_back(value);
+        }
+        const auto& usual = entry.info.default_choices;
+        if (std::find(usual.begin(), usual.end(), key) != usual.end()) option.default_value = value;
+      }
+    }
+    for (auto& [name_of_keys, keys] : found) {
+      const std::string& typed = find_problem(name_of_keys, {})->info.typed_choice;
+      for (OptionInfo& option : keys) {
+        if (option.name == typed) option.words.emplace_back(FormulaKeys::problem);
+      }
+    }
+    return found;
+  }();
+  return all.at(name);
+}
 }  // namespace
 
 /// The values of a selecting key.
 std::vector<std::string> ScenarioReader::choices_of_key(const std::string& name, const std::string& key) {
-  std::vector<std::string> all;
-  for (const ProblemEntry& entry : problems()) {
-    const std::string value = entry.info.name == name ? choice_of(entry.info, key) : "";
-    if (!value.empty() && std::find(all.begin(), all.end(), value) == all.end()) all.push_back(value);
-  }
-  return all;
+  return find_option(selecting_keys(name), key)->words;
 }
 
 void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
-  // The choices of each selecting key, from the entries that carry the name.
-  std::vector<std::string> keys;
-  std::map<std::string, std::vector<std::string>> choices;
-  std::map<std::string, std::string> defaults;
-  for (const ProblemEntry& entry : problems()) {
-    if (entry.info.name != name) continue;
-    for (const std::string& key : entry.info.default_choices) defaults[key] = choice_of(entry.info, key);
-    for (const auto& [key, value] : entry.info.variant) {
-      if (!choices.contains(key)) keys.push_back(key);
-      auto& list = choices[key];
-      if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
-    }
-  }
-  if (name == CentralKeys::problem) choices[CentralKeys::key].emplace_back(FormulaKeys::problem);
   bool complete_choice = true;
-  for (const std::string& key : keys) {
+  for (const OptionInfo& option : selecting_keys(name)) {
+    const std::string& key = option.name;
     if (!table.has(key)) {
       table.know(key);
-      const auto usual = defaults.find(key);
-      if (usual != defaults.end()) {
-        scenario_.request.variant[key] = usual->second;
+      if (!option.default_value.empty()) {
+        scenario_.request.variant[key] = option.default_value;
       } else {
-        table.missing(key, joined(choices[key]));
+        table.missing(key, joined(option.words));
         complete_choice = false;
       }
       continue;
     }
-    const auto chosen = table.text({.name = key, .type = OptionType::word, .words = choices[key]});
+    const auto chosen = table.text(option);
     if (chosen) {
       scenario_.request.variant[key] = *chosen;
     } else {
@@ -271,7 +276,8 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   }
   // Not every entry has every key: what was given and would change nothing is refused.
   Choices chosen;
-  for (const std::string& key : keys) {
+  for (const OptionInfo& option : selecting_keys(name)) {
+    const std::string& key = option.name;
     const std::string value = choice_of(scenario_.problem->info, key);
     if (!value.empty()) {
       chosen[key] = value;

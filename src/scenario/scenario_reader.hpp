@@ -9,6 +9,8 @@
 
 namespace hamflow {
 
+struct FigureFacts;
+
 struct Document {
   toml::table root;
   std::string file_method;                  // its name in the file, before anything was set
@@ -23,6 +25,9 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
 std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root);
 /// Every value by its dotted path.
 std::map<std::string, Setting> settings_of(const toml::table& root);
+
+/// Whether [problem] asks for a choice that is typed (ProblemInfo::typed_choice).
+bool has_typed_choice(TomlTable& table, const ProblemInfo& info);
 
 /// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
 class ScenarioReader {
@@ -49,7 +54,7 @@ class ScenarioReader {
     check_method_for_size(method);
     read_output(output);
     root_.finish();
-    return scenario_;
+    return std::move(scenario_);
   }
 
   /// [problem] alone.
@@ -67,7 +72,7 @@ class ScenarioReader {
   void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
   static std::vector<std::string> choices_of_key(const std::string& name, const std::string& key);
-  void read_typed_problem(TomlTable& table, const std::string& name);
+  void read_typed_problem(TomlTable& table, const ProblemEntry& listed);
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
   static void tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong);
   Texts read_typed_parameters(TomlTable& table);
@@ -98,7 +103,8 @@ class ScenarioReader {
   void check_walls();
   bool complain_of_soft_walls();
   void check_start(TomlTable& table);
-  void complain_of_start(TomlTable& table, const std::string& usual, const std::string& why);
+  void complain_of_start(TomlTable& table, const std::string& usual, const std::string& message);
+  void complain_of_particles(TomlTable& table, const std::string& usual, std::string message);
   bool check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
@@ -126,6 +132,7 @@ class ScenarioReader {
   void round_edges(TomlTable& table);
   void read_lattice(TomlTable& table);
   void read_output(TomlTable& table);
+  FigureFacts figure_facts() const;
 
   TomlTable root_;
   std::vector<Complaint>& complaints_;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "hamflow/run/fitting_methods.hpp"
-#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -11,9 +10,9 @@ namespace hamflow {
 
 namespace {
 
-/// Positions and momenta; of a gas velocities too.
+/// Positions and momenta; of particles velocities too.
 std::size_t numbers_of_sample(const Scenario& scenario) {
-  return scenario.start_q.size() * (scenario.request.problem == GasKeys::problem ? 3 : 2);
+  return scenario.start_q.size() * (scenario.problem != nullptr && scenario.problem->particles ? 3 : 2);
 }
 
 }  // namespace

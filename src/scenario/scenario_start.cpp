@@ -4,9 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gas_options.hpp"
 #include "hamflow/formula/problem_texts.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -211,24 +209,12 @@ void ScenarioReader::read_frame(TomlTable& table) {
   scenario_.request.start.barycentric = frame.value_or(usual) == StartFrames::barycentric;
 }
 
-/// A gas whose start nobody typed: the particles are counted, and it is their masses that may be too many or too few.
-bool ScenarioReader::check_masses(TomlTable& table) {
-  const Request& request = scenario_.request;
-  const std::size_t size = request.start.q.size();
-  if (scenario_.problem->refused_size(request.parameters, size).empty()) return true;
-  const auto space = static_cast<std::size_t>(number_value(request.parameters.at(GasKeys::dimension)));
-  table.complain(GasKeys::masses, "found " + std::to_string(list_parts(request.parameters.at(GasKeys::masses)).size()) +
-                                      " numbers; allowed one, or " + std::to_string(size / space) +
-                                      ", one for each particle");
-  return false;
-}
-
 /// Where the size of the problem follows from the start.
 bool ScenarioReader::check_size(TomlTable& table) {
   const StartSpec& spec = scenario_.request.start;
   if (spec.geometric()) return true;
   const std::size_t before = complaints_.size();
-  if (!table.has("initial") && scenario_.request.problem == GasKeys::problem) return check_masses(table);
+  if (!table.has("initial") && scenario_.problem->particles) return check_masses(table);
   TomlTable at = table.has("initial") ? table.table("initial") : table;
   const auto check = [&](const char* key, std::size_t size) {
     const std::string why_not = scenario_.problem->refused_size(scenario_.request.parameters, size);
@@ -315,7 +301,8 @@ void ScenarioReader::check_start(TomlTable& table) {
   if (problem.residuals && !check_constraints(table, start)) return;
   const std::string why_not = problem.refused_start(request.parameters, start.q);
   if (!why_not.empty()) {
-    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", why_not);
+    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial",
+                      "found " + why_not);
     return;
   }
   const bool unsolved = std::any_of(start.p.begin(), start.p.end(), [](double p) { return !std::isfinite(p); });
@@ -327,73 +314,16 @@ void ScenarioReader::check_start(TomlTable& table) {
   if (!problem.regular(request.parameters, start.q, start.p)) {
     complain_of_start(
         table, geometric ? "orbit" : "initial",
-        "a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
+        "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
     return;
   }
 }
 
 namespace {
 
-/// The numbers of the particles with which a refusal begins: "particles 1 and 3 at", "particle 2 at", "y2 = 1 beyond".
-std::vector<std::size_t> particles_of(const std::string& why) {
-  const std::size_t end = std::min({why.find(" at "), why.find(" = "), why.size()});
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < end; ++i) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(why[i])) != 0;
-    if (!digit) continue;
-    std::size_t length = 0;
-    all.push_back(std::stoull(why.substr(i), &length));
-    i += length;
-  }
-  return all;
-}
-
-/// The key of what a particle of which this is told is beyond, or whose images meet; empty where it is none.
-std::string key_of_edge(const std::string& why, bool has_walls) {
-  const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
-  const GasOptions& gas = gas_options();
-  const std::string inside = gas.container.name + ".";
-  if (tells(" from the middle, on the soft wall")) return inside + gas.of_container.radius.name;
-  if (tells(" beyond the wall at ")) return has_walls ? wall_keys().walls.name : inside + gas.of_container.size.name;
-  return tells(" at images of one point") ? inside + gas.of_container.size.name : "";
-}
-
-}  // namespace
-
-/// At the key that gives the start: `usual`, or that of a gas; of one in a CSV with the lines of those that are named.
-void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& why) {
-  const GasOptions& gas = gas_options();
-  std::string message = "found " + why;
-  if (scenario_.request.problem != GasKeys::problem) return table.complain(usual, message);
-  // Of a start that nobody typed the container is the cause, and so it is where it alone was changed from outside.
-  const std::string start = table.has("initial") ? "initial" : gas.start.name;
-  const std::string edge = key_of_edge(why, table.has(wall_keys().walls.name));
-  const std::string holder = edge.substr(0, edge.find('.'));
-  const auto is_outside = [&](const std::string& key) { return table.has(key) && touched(*table.node().get(key)); };
-  if (!edge.empty() && (!table.has(start) || (is_outside(holder) && !is_outside(start)))) {
-    return table.complain_in(edge, message);
-  }
-  if (table.has("initial")) return table.complain(usual, message);
-  if (table.plain_string(gas.start.name) != GasStarts::file) return table.complain(gas.start.name, message);
-  std::vector<std::string> lines;
-  for (const std::size_t particle : particles_of(why)) {
-    if (particle > 0 && particle <= start_lines_.size()) lines.push_back(std::to_string(start_lines_[particle - 1]));
-  }
-  if (!lines.empty()) {
-    const std::filesystem::path file =
-        std::filesystem::path(scenario_.file).parent_path() / table.plain_string(gas.file.name).value_or("");
-    message.insert(std::min(message.find("; allowed"), message.size()),
-                   std::string(lines.size() == 1 ? ", in line " : ", in lines ") + joined(lines, " and ") + " of " +
-                       file.string());
-  }
-  table.complain(gas.file.name, message);
-}
-
-namespace {
-
 /// The largest of typed constraints at a point, with the constraint's key; of others the sum of all.
 std::string largest_of(const Request& request, const Frame& at, double sum, const std::string& formula) {
-  const FormulaTexts texts = request.problem == FormulaKeys::problem ? formula_texts(request.variant) : FormulaTexts();
+  const FormulaTexts texts = formula_texts(request.variant);
   const std::string allowed = "; allowed at most " + shortest(most_residual_at_start) + ": ";
   if (texts.constraints.empty()) return "|g(q)| = " + shortest(sum) + allowed + formula;
   double most = -1;
@@ -413,6 +343,11 @@ std::string largest_of(const Request& request, const Frame& at, double sum, cons
 }
 
 }  // namespace
+
+/// At the key that gives the start.
+void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& message) {
+  scenario_.problem->particles ? complain_of_particles(table, usual, message) : table.complain(usual, message);
+}
 
 /// The motion begins on the constraints and along them.
 bool ScenarioReader::check_constraints(TomlTable& table, const Frame& start) {

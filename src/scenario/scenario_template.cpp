@@ -6,12 +6,11 @@
 #include <set>
 
 #include "figure_kinds.hpp"
-#include "formula_keys.hpp"
-#include "gas_options.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
-#include "hamflow/run/gas.hpp"
+#include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "option_text.hpp"
@@ -181,66 +180,34 @@ class TemplateWriter {
   void write_problem() {
     page_.section("problem");
     page_.line("name = \"" + info_.name + "\"");
-    if (info_.name == FormulaKeys::problem) {
-      write_typed();
-      return;
-    }
-    if (info_.name == GasKeys::problem) {
-      write_gas();
-      return;
-    }
-    const bool typed_field = problem_.structure.has_value();
     for (const auto& [key, value] : info_.variant) {
-      const std::vector<OptionInfo>& typed = central_formula_options();
-      const auto is_this = [&key = key](const OptionInfo& option) { return option.name == key; };
-      if (typed_field && std::any_of(typed.begin(), typed.end(), is_this)) continue;
+      if (find_option(info_.keys, key) != nullptr) continue;  // follows with the other texts
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {
         for (const auto& [other_key, other] : entry.info.variant) {
-          const bool is_new = std::find(all.begin(), all.end(), other) == all.end() && !entry.structure;
+          const bool is_new = std::find(all.begin(), all.end(), other) == all.end();
           if (entry.info.name == info_.name && other_key == key && is_new) all.push_back(other);
         }
       }
-      if (info_.name == CentralKeys::problem && key == CentralKeys::key) all.emplace_back(FormulaKeys::problem);
+      if (key == info_.typed_choice) all.emplace_back(FormulaKeys::problem);
       std::string code = key;
       const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
       const char* const mark = is_number ? "" : "\"";
       code.append(" = ").append(mark).append(value).append(mark);
       page_.line(code, joined(all));
     }
-    for (const ParameterInfo& parameter : info_.parameters) {
-      if (!typed_field || parameter.name == CentralKeys::mass) write_parameter(parameter);
+    if (info_.keys.empty()) {
+      for (const ParameterInfo& parameter : info_.parameters) write_parameter(parameter);
     }
-    if (typed_field) {
-      for (const OptionInfo& option : central_formula_options()) write_option(option, true);
+    for (OptionInfo option : info_.keys) {
+      const auto set = example_.keys.find(option.name);
+      if (set != example_.keys.end() && !set->second.empty()) option.example = set->second;
+      write_option(option, set != example_.keys.end());
+    }
+    if (problem_.structure) {
       for (const std::string& sentence : formula_language()) page_.prose(sentence);
     }
-    write_starts();
-  }
-
-  /// The example of a Hamiltonian that the user replaces.
-  void write_typed() {
-    const auto given = [&](const std::string& name) {
-      return std::any_of(info_.variant.begin(), info_.variant.end(),
-                         [&](const auto& one) { return one.first == name; });
-    };
-    for (const OptionInfo& option : formula_options()) write_option(option, given(option.name));
-    for (const std::string& sentence : formula_language()) page_.prose(sentence);
-    write_starts();
-  }
-
-  /// Particles on a lattice in a circle; all other keys as comments.
-  void write_gas() {
-    const GasOptions& o = gas_options();
-    for (OptionInfo option : all_gas_options()) {
-      const auto is = [&](const OptionInfo& other) { return option.name == other.name; };
-      if (is(o.particles_per_side)) option.example = "5";  // a second is enough for a look at them
-      if (is(o.container)) {
-        page_.line(option.name + " = " + option.example, explained_with_default(option));
-        continue;
-      }
-      write_option(option, is(o.particles_per_side) || is(o.start) || is(o.seed) || is(o.pair) || is(o.scale));
-    }
+    if (!problem_.particles) return write_starts();
     page_.off("initial = { q = [...], p = [...] }", "q = [" + joined(info_.coordinates) + "], in place of start");
     write_walls();
   }
@@ -436,9 +403,8 @@ class TemplateWriter {
     }
   }
 
-  /// The first coordinate of the start; of a gas, which begins on both sides of it, 0.
+  /// The first coordinate of the start.
   double first_of_start() const {
-    if (info_.name == GasKeys::problem) return 0;
     Request request{.problem = info_.name};
     request.variant = {info_.variant.begin(), info_.variant.end()};
     request.parameters = parameters_;

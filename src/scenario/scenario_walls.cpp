@@ -4,7 +4,6 @@
 
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/fitting_methods.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 #include "wall_checks.hpp"
@@ -64,8 +63,7 @@ std::optional<Walls::Interval> read_interval(TomlTable& table, const std::vector
 }  // namespace
 
 void ScenarioReader::read_walls(TomlTable& table) {
-  const auto container = scenario_.request.variant.find(GasKeys::container);
-  if (container != scenario_.request.variant.end() && container->second == ContainerNames::box) return read_box(table);
+  if (scenario_.problem->container == ContainerNames::box) return read_box(table);
   const WallKeys& keys = wall_keys();
   const ProblemInfo& info = scenario_.problem->info;
   const bool fixed = !info.walls.empty();
@@ -146,9 +144,9 @@ void ScenarioReader::read_walls(TomlTable& table) {
 namespace {
 /// The rules among `rules` that this problem takes, in quotes, each with ", " behind it: walls of a box are hard, a
 /// soft wall has two ends, and on the lattice no step is cut at a bounce.
-std::string rules_taken(const Request& request, const Walls& walls, const std::vector<WallRule>& rules) {
-  const auto container = request.variant.find(GasKeys::container);
-  const bool box = container != request.variant.end() && container->second == ContainerNames::box;
+std::string rules_taken(const Request& request, const ProblemEntry& problem, const Walls& walls,
+                        const std::vector<WallRule>& rules) {
+  const bool box = problem.container == ContainerNames::box;
   const bool ends = std::all_of(walls.intervals.begin(), walls.intervals.end(),
                                 [](const auto& wall) { return !wall.min.empty() && !wall.max.empty(); });
   std::string words;
@@ -166,14 +164,14 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   if (!walls) return {};
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
-    const std::string soft = rules_taken(request, *walls, {WallRule::soft});
+    const std::string soft = rules_taken(request, problem, *walls, {WallRule::soft});
     return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : ", or ") +
            "step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {
     return "with " + info.name + ", which carries a second copy of the state that meets walls elsewhere; allowed " +
-           or_fitting_method(rules_taken(request, *walls, {WallRule::soft}), "another method", {"stv4", "cg", "rk4"},
-                             &problem, request.arithmetic);
+           or_fitting_method(rules_taken(request, problem, *walls, {WallRule::soft}), "another method",
+                             {"stv4", "cg", "rk4"}, &problem, request.arithmetic);
   }
   if (walls->rule == WallRule::event && request.arithmetic == "lattice") {
     return "on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"";
@@ -184,12 +182,12 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   const bool drifts = find_method(request.method.name).family->not_on_lattice.empty();
   if (!drifts) {
     return "with " + info.name + ", which has no drifts to be reflected; allowed " +
-           or_fitting_method(rules_taken(request, *walls, {WallRule::event, WallRule::reject}), "a splitting method",
-                             {"stv4"}, &problem, request.arithmetic);
+           or_fitting_method(rules_taken(request, problem, *walls, {WallRule::event, WallRule::reject}),
+                             "a splitting method", {"stv4"}, &problem, request.arithmetic);
   }
   const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {
-    if (problem.info.name == GasKeys::problem) break;  // each particle has its mass
+    if (problem.particles) break;  // each particle has its mass
     std::vector<double> p(start_q.size(), 0.0);
     p[wall.index] = 1;
     const std::vector<double> v = problem.gradient(request.parameters, start_q, p).by_p;
@@ -224,8 +222,8 @@ bool ScenarioReader::complain_of_soft_walls() {
       wall_keys().wall_rule.name,
       "found \"" + rule_of_walls(request) + "\" with " + request.method.name +
           ", which takes no potential of a wall; allowed " +
-          or_fitting_method(rules_taken(request, *walls, hard), "another method", {"cg", "stv4", "rk4"},
-                            scenario_.problem.get(), request.arithmetic));
+          or_fitting_method(rules_taken(request, *scenario_.problem, *walls, hard), "another method",
+                            {"cg", "stv4", "rk4"}, scenario_.problem.get(), request.arithmetic));
   return true;
 }
 
@@ -274,7 +272,7 @@ void ScenarioReader::check_walls() {
     }
   }
   if (notes.empty()) return;
-  if (request.problem == GasKeys::problem) {  // the same for each of its particles
+  if (scenario_.problem->particles) {  // the same for each of its particles
     notes = {"the walls of the box are moved by up to " + shortest(most) + ", to half a unit of the lattice"};
   }
   scenario_.notes.insert(scenario_.notes.end(), notes.begin(), notes.end());

@@ -107,13 +107,25 @@ void TomlTable::complain_in(const std::string& part, const std::string& message)
   }
 }
 
-std::vector<std::string> TomlTable::keys() const {
+template <class Wanted>
+std::vector<std::string> TomlTable::keys_where(const Wanted& wanted) const {
   std::vector<std::pair<toml::source_position, std::string>> placed;
-  for (const auto& [key, value] : node()) placed.emplace_back(key.source().begin, key.str());
+  for (const auto& [key, value] : node()) {
+    if (wanted(key.str())) placed.emplace_back(key.source().begin, key.str());
+  }
   std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> all;
   for (auto& [where, key] : placed) all.push_back(std::move(key));
   return all;
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  return keys_where([](std::string_view) { return true; });
+}
+
+std::vector<std::string> TomlTable::unknown_keys() const {
+  return keys_where(
+      [this](std::string_view key) { return std::find(known_.begin(), known_.end(), key) == known_.end(); });
 }
 
 std::optional<std::vector<std::string>> TomlTable::texts(const std::string& key) {
@@ -186,8 +198,10 @@ std::optional<std::int64_t> TomlTable::whole(const OptionInfo& option) {
 }
 
 std::optional<std::vector<std::string>> TomlTable::numbers(const OptionInfo& option) {
-  const auto found = text(option);
-  return found ? std::optional(list_parts(*found)) : std::nullopt;
+  const toml::node* node = find(option.name);
+  const Allowed allowed = [&] { return "; allowed " + allowed_text(option); };
+  if (node == nullptr && option.required) complain(option.name, "missing" + allowed());
+  return node == nullptr ? std::nullopt : list_entries(*node, option, allowed);
 }
 
 std::optional<bool> TomlTable::yes_no(const OptionInfo& option) {
@@ -238,6 +252,12 @@ std::optional<std::string> TomlTable::number_text(const toml::node& node, const 
 
 std::optional<std::string> TomlTable::list_text(const toml::node& node, const OptionInfo& option,
                                                 const Allowed& allowed) {
+  const auto all = list_entries(node, option, allowed);
+  return all ? std::optional("[" + joined(*all) + "]") : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> TomlTable::list_entries(const toml::node& node, const OptionInfo& option,
+                                                                const Allowed& allowed) {
   const auto* array = node.as_array();
   if (array == nullptr) {
     complain(option.name, "found " + shown(node) + allowed());
@@ -253,7 +273,7 @@ std::optional<std::string> TomlTable::list_text(const toml::node& node, const Op
     if (!text) return std::nullopt;
     all.push_back(std::move(*text));
   }
-  return "[" + joined(all) + "]";
+  return all;
 }
 
 std::optional<std::string> TomlTable::word_text(const toml::node& node, const OptionInfo& option,

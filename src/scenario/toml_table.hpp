@@ -46,6 +46,8 @@ class TomlTable {
   TomlTable table(const std::string& key);
   /// The keys that are there, in the order of the file.
   std::vector<std::string> keys() const;
+  /// Those that no look-up has made known.
+  std::vector<std::string> unknown_keys() const;
   /// The entries of a list of texts that the user chooses; each is not empty.
   std::optional<std::vector<std::string>> texts(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
@@ -74,8 +76,12 @@ class TomlTable {
   using Allowed = std::function<std::string()>;
 
   const toml::node* find(const std::string& key);
+  template <class Wanted>
+  std::vector<std::string> keys_where(const Wanted& wanted) const;
   std::optional<std::string> number_text(const toml::node& node, const OptionInfo& option, const Allowed& allowed);
   std::optional<std::string> list_text(const toml::node& node, const OptionInfo& option, const Allowed& allowed);
+  std::optional<std::vector<std::string>> list_entries(const toml::node& node, const OptionInfo& option,
+                                                       const Allowed& allowed);
   std::optional<std::string> word_text(const toml::node& node, const OptionInfo& option, const Allowed& allowed);
   void complain_at(const toml::source_region& where, const std::string& key, const std::string& message);
 

@@ -47,8 +47,8 @@ std::string MemberNames::key() const {
   return all + (stops ? "stops" : "");
 }
 
-void SweepNames::add(std::size_t member, const MemberNames& names) {
-  const auto [at, is_new] = known_.try_emplace(names.key(), static_cast<std::uint32_t>(kinds_.size()));
+void SweepNames::add(std::size_t member, const MemberNames& names, const std::string& key) {
+  const auto [at, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(kinds_.size()));
   if (is_new) kinds_.push_back({names, member});
   kinds_[at->second].first = std::min(kinds_[at->second].first, member);
   kind_of_[member] = at->second;

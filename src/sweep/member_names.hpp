@@ -41,7 +41,8 @@ class SweepNames {
  public:
   explicit SweepNames(std::size_t members = 0) : kind_of_(members) {}
   /// In any order, each member once.
-  void add(std::size_t member, const MemberNames& names);
+  /// @param key of names
+  void add(std::size_t member, const MemberNames& names, const std::string& key);
   /// Once all are there. What cannot be columns of one table is returned: an invariant with two numbers of components,
   /// and one member of each. Else the name is empty.
   struct Clash {

@@ -129,7 +129,7 @@ void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
   const MemberNames names(*reading.startless, observables_of(*reading.startless).names);
   const std::lock_guard lock(mutex_);
   take_as_common(member, *reading.startless);
-  names_.add(member, names);
+  names_.add(member, names, names.key());
   rows_[member].no_start = true;
   rows_[member].message = reading.no_start;
 }
@@ -209,7 +209,8 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   key += '\n' + std::to_string(scenario.steps);
   const MemberObservables observables = observables_of(scenario);
   const MemberNames names(scenario, observables.names);
-  key += '\n' + names.key();  // observers of a block are the same for each lane, and events are sought without lanes
+  const std::string name_key = names.key();
+  key += '\n' + name_key;  // observers of a block are the same for each lane, and events are sought without lanes
 
   const std::lock_guard lock(mutex_);
   take_as_common(member, scenario);
@@ -218,12 +219,15 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     const std::array<std::uint64_t, 2> one{member, *scenario.start_contents};
     start_contents_ = start_contents_.value_or(0) ^ fnv1a(std::as_bytes(std::span(one)));
   }
-  names_.add(member, names);
+  names_.add(member, names, name_key);
   if (!is_own(member)) return;
-  arithmetics_.insert(request.arithmetic);
   auto [at, is_new] = groups_.try_emplace(key);
   Group& group = at->second;
   if (is_new) {
+    arithmetics_.insert(request.arithmetic);
+    kernels_.insert(request.kernel);
+    beyond_double_ = beyond_double_ || digits_beyond_double(request.arithmetic) > 0;
+    halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
     group.request = request;
     group.shape = shape;
     group.steps = scenario.steps;
@@ -238,8 +242,6 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   group.members.push_back(member);
   steps_[member] = scenario.steps;
   total_steps_ += scenario.steps;
-  beyond_double_ = beyond_double_ || digits_beyond_double(request.arithmetic) > 0;
-  halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
   if (group.lanes > 0) {
     ++in_lanes_;
     lane_count_ = std::max(lane_count_, group.lanes);

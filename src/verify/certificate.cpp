@@ -10,7 +10,6 @@
 #include "energy_size.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "rounding.hpp"
@@ -313,10 +312,10 @@ void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings
 }
 
 /// A method whose energy has no drift over any run: symplectic, with equal steps that are solved as well as they can
-/// be. Where the forces of a gas are cut off it may have one.
-bool keeps_an_energy(const Request& request, const MethodInfo& method) {
+/// be. Where the forces of many particles are cut off it may have one.
+bool keeps_an_energy(const Request& request, const ProblemEntry& problem, const MethodInfo& method) {
   return method.symplectic && takes_equal_steps(method) && !method.carries_copy && !has_hard_walls(request) &&
-         request.method.options.count(tolerance_option) == 0 && request.problem != GasKeys::problem;
+         request.method.options.count(tolerance_option) == 0 && !problem.particles;
 }
 
 /// Whether it has met walls at which the energy of its method walks (docs/design.md, Walls).
@@ -358,7 +357,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
     series.rounding = std::max(epsilon * rounded, energy_of_units(request, problem, ends));
   }
   series.roundings = roundings_of(simulation);
-  series.symplectic = keeps_an_energy(request, simulation.method());
+  series.symplectic = keeps_an_energy(request, problem, simulation.method());
   series.bounces = walks_at_walls(request, simulation);
   series.copies = simulation.method().carries_copy;
   find_periods(problem, state.swings, simulation.step(), series);

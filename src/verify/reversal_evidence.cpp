@@ -8,7 +8,6 @@
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/certificate.hpp"
@@ -281,9 +280,9 @@ bool begins_on_a_wall(const Motion& motion) {
 
 /// Whether a force may jump: at a hard wall, where the energy of a pair is cut off, where a typed H has an abs(). All
 /// others depend smoothly on the state wherever H is finite.
-bool force_may_jump(const Request& request) {
+bool force_may_jump(const Request& request, const ProblemEntry& problem) {
   const auto& choices = request.variant;
-  return has_hard_walls(request) || request.parameters.contains(GasKeys::cutoff) ||
+  return has_hard_walls(request) || problem.has_cutoff ||
          std::any_of(choices.begin(), choices.end(),
                      [](const auto& choice) { return choice.second.find("abs") != std::string::npos; });
 }
@@ -318,8 +317,9 @@ std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& 
         "those that begin {:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where {}stiff "
         "steps round by more than that",
         moved, wider.furthest, moved_less, nearer.furthest,
-        force_may_jump(motion.request) ? "a force jumps and a rounding decides on which side it is taken, or where "
-                                       : "");
+        force_may_jump(motion.request, motion.problem)
+            ? "a force jumps and a rounding decides on which side it is taken, or where "
+            : "");
   }
   return {};
 }
@@ -426,7 +426,7 @@ double steps_of_a_second(const Request& request, const ProblemEntry& problem, st
   constexpr double of_coordinate = 10;    // also of a gas with a cut-off
   constexpr double numbers_of_pair = 16;  // pairs of bodies in space: a half of a ninth of the numbers' square
   const auto numbers = static_cast<double>(size);
-  const bool all_pairs = problem.has_pairwise_forces && !request.parameters.contains(GasKeys::cutoff);
+  const bool all_pairs = problem.has_pairwise_forces && !problem.has_cutoff;
   const double force = std::max(of_coordinate * numbers, all_pairs ? numbers * numbers / numbers_of_pair : 0);
   const int stages = describe(request.method).forces_per_step;
   return work / (motions * force * (stages > 0 ? stages : of_implicit) * slowness_of(request.arithmetic));

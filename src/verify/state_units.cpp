@@ -33,7 +33,7 @@ UnitGroups unit_groups(const ProblemEntry& problem, std::size_t size) {
   const ProblemInfo& info = problem.info;
   UnitGroups groups;
   if (info.coordinates.size() != size) return groups;  // of any size: bodies, particles, links
-  if (info.name == FormulaKeys::problem) {
+  if (has_typed_hamiltonian(problem)) {
     groups.q.clear();
     groups.p.clear();
     for (std::size_t i = 0; i < size; ++i) {

@@ -7,13 +7,13 @@
 #include <sstream>
 
 #include "figure_kinds.hpp"
-#include "formula_keys.hpp"
-#include "gas_options.hpp"
 #include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/formula/tex.hpp"
+#include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/gas.hpp"
+#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
@@ -124,7 +124,7 @@ void write_problem(std::ostream& out, const ProblemEntry& entry);
 void write_formula(std::ostream& out, const ProblemEntry& example) {
   out << fmt::format("{}\n  a Hamiltonian as it is typed, e.g. {}\n", example.info.name, example.info.formula);
   out << "  keys of [problem]:\n";
-  for (const OptionInfo& option : formula_options()) out << option_row(option);
+  for (const OptionInfo& option : keys_of(example.info)) out << option_row(option);
   for (const std::string& line : formula_language()) out << filled(line);
   out << "  initial = { q = [...], p = [...] } or { q, v }, or with energy and one component \"+\" or \"-\"\n"
          "  a scenario to begin with: hamflow new formula; what is found of one: hamflow show my.toml\n";
@@ -136,8 +136,8 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
   for (const auto& [name, value] : scenario.request.parameters) {
     if (!value.empty()) out << fmt::format("  here: {} = {}\n", name, value);
   }
-  const bool gas = scenario.request.problem == GasKeys::problem;  // the walls are those of its box
-  if (const auto& walls = scenario.request.walls; walls && !gas) {
+  const bool box = scenario.problem->container == ContainerNames::box;  // whose walls these are
+  if (const auto& walls = scenario.request.walls; walls && !box) {
     for (const Walls::Interval& wall : walls->intervals) {
       out << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
                          wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
@@ -209,7 +209,7 @@ void write_constraints(std::ostream& out, const ProblemEntry& entry) {
   const FormulaTexts texts = formula_texts({entry.info.variant.begin(), entry.info.variant.end()});
   for (const std::string& text : texts.constraints) out << fmt::format("  constraint: {} = 0\n", text);
   if (!texts.constraints.empty()) {
-    out << fmt::format("  {}: {}\n", constraint_form_option().name, texts.constraint_form);
+    out << fmt::format("  {}: {}\n", FormulaKeys::constraint_form, texts.constraint_form);
   }
 }
 
@@ -220,31 +220,27 @@ void write_problem(std::ostream& out, const ProblemEntry& entry) {
                      degrees_of_freedom(entry), info.reference);
   if (entry.structure) out << "  found: " << structure_text(*entry.structure) << "\n";
   if (!info.parameters.empty() || !info.frame.name.empty()) out << "  keys of [problem]:\n";
-  const bool gas = info.name == GasKeys::problem;
-  for (const OptionInfo& key : gas ? all_gas_options() : info.parameters) out << option_row(key);
+  for (const OptionInfo& key : keys_of(info)) out << option_row(key);
   if (!info.frame.name.empty()) out << option_row(info.frame);
   if (!info.velocities.name.empty()) out << option_row(info.velocities);
   write_starts(out, info);
   write_walls(out, entry);
   out << fmt::format("  momenta: {}\n",
                      entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
-  const bool typed = entry.structure && info.name == FormulaKeys::problem;
+  const bool typed = has_typed_hamiltonian(entry);
   if (typed) write_constraints(out, entry);
   for (const InvariantInfo& i : info.invariants) {
     out << fmt::format("  {}: {} = {}\n", typed ? "watched" : "conserved", i.name, i.meaning);
   }
 }
 
-void write_typed_central_force(std::ostream& out) {
-  out << "central-force with potential = \"formula\", coordinates = \"cartesian\" or \"polar\": V as it is typed "
-         "(its language: hamflow show formula)\n";
-  for (const OptionInfo& option : central_formula_options()) out << option_row(option);
-  // It starts like those of which no closed orbit is known.
-  const auto alike = std::find_if(problems().begin(), problems().end(), [](const ProblemEntry& entry) {
-    return entry.info.name == CentralKeys::problem && entry.info.starts.size() == 1 &&
-           entry.info.starts[0].kind.empty();
-  });
-  if (alike != problems().end()) write_starts(out, alike->info);
+/// A problem with a choice that is typed.
+void write_typed_choice(std::ostream& out, const ProblemInfo& info) {
+  out << fmt::format(
+      "{} with {} = \"formula\" and any {}: as it is typed, e.g. {} (its language: hamflow show formula)\n", info.name,
+      info.typed_choice, info.chart_key, info.formula);
+  for (const OptionInfo& option : keys_of(info)) out << option_row(option);
+  write_starts(out, info);
 }
 
 void write_method(std::ostream& out, const MethodSpec& spec) {
@@ -335,8 +331,11 @@ void write_problems(std::ostream& out) {
     out << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
                        variant_of(entry).empty() ? "" : "  (" + variant_text(entry) + ")");
   }
-  out << fmt::format("{:<26} H = |p|^2/(2 mu) + V(r), V(r) as it is typed  (potential = \"formula\")\n",
-                     CentralKeys::problem);
+  for (const ProblemEntry& entry : typed_examples()) {
+    if (entry.to_reference) continue;
+    out << fmt::format("{:<26} {}  ({} = \"formula\", an example)\n", entry.info.name, entry.info.formula,
+                       entry.info.typed_choice);
+  }
 }
 
 }  // namespace
@@ -369,7 +368,9 @@ std::optional<CatalogueText> catalogue_text(const std::string& name) {
     const std::string formula = tex_of(entry.info.formula);
     if (std::find(formulas.begin(), formulas.end(), formula) == formulas.end()) formulas.push_back(formula);
   }
-  if (name == CentralKeys::problem) write_typed_central_force(out);
+  for (const ProblemEntry& entry : typed_examples()) {
+    if (entry.info.name == name && !entry.to_reference) write_typed_choice(out, entry.info);
+  }
   const std::string of_problem = out.str();
   if (!of_problem.empty()) return CatalogueText{of_problem, formulas};
   if (write_keys(out, name)) return CatalogueText{out.str()};

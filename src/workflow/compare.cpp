@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "hamflow/run/gas.hpp"
 #include "json_text.hpp"
 #include "summary.hpp"
 #include "summary_fields.hpp"
@@ -65,9 +64,9 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
 /// start and, where it is known, the end of the motion itself.
 std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& asked) {
   std::vector<Warning> all;
-  if (asked.request.problem != GasKeys::problem) return all;
   const auto problem_entry = find_problem(asked.request);
   const ProblemEntry& problem = *problem_entry;
+  if (!problem.particles) return all;
   const Frame start = problem.start(asked.request);
   Frame end = start;
   if (c.reference.kind != "none") {

@@ -13,7 +13,6 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
@@ -55,9 +54,7 @@ std::string what_is(const fs::path& folder) {
 std::size_t space_of(const Scenario& scenario, std::size_t size) {
   const ProblemEntry& problem = *scenario.problem;
   const Texts& parameters = scenario.request.parameters;
-  if (scenario.request.problem == GasKeys::problem) {
-    return static_cast<std::size_t>(Parameters<double>(parameters)[GasKeys::dimension]);
-  }
+  if (problem.particles) return problem.particles(parameters).space;
   if (problem.info.coordinates == std::vector<std::string>{"x", "y", "z"}) return 3;
   const std::vector<InvariantInfo>& invariants = problem.info.invariants;
   for (std::size_t i = 0; problem.dimension == 0 && i < invariants.size(); ++i) {
@@ -180,16 +177,15 @@ FigureParticles particles_of(const Scenario& scenario, std::size_t space, Positi
   FigureParticles all;
   if (scenario.problem->dimension != 0 || space < 2) return all;
   const std::size_t size = scenario.start_q.size();
-  all.gas = scenario.request.problem == GasKeys::problem;
+  all.gas = static_cast<bool>(scenario.problem->particles);
   all.space = space;
   all.count = size / space;
   all.positions = std::move(positions);
   if (!all.gas) return all;
-  const Parameters<double> parameters(scenario.request.parameters);
-  const auto container = scenario.request.variant.find(GasKeys::container);
-  all.container = container == scenario.request.variant.end() ? ContainerNames::circle : container->second;
-  if (parameters.has(GasKeys::radius)) all.radius = parameters[GasKeys::radius];
-  if (parameters.has(GasKeys::size)) all.edges = parameters.list(GasKeys::size);
+  const ParticleFacts particles = scenario.problem->particles(scenario.request.parameters);
+  all.container = scenario.problem->container;
+  if (particles.radius > 0) all.radius = particles.radius;
+  all.edges = particles.edges;
   return all;
 }
 
@@ -230,7 +226,7 @@ std::string problem_text(const Scenario& scenario) {
   const Request& request = scenario.request;
   if (!scenario.problem->structure) return request.problem;
   const auto potential = request.variant.find(FormulaKeys::central_potential);
-  if (request.problem == FormulaKeys::problem) return figures::shortened({scenario.problem->info.formula}, longest)[0];
+  if (has_typed_hamiltonian(*scenario.problem)) return figures::shortened({scenario.problem->info.formula}, longest)[0];
   if (potential == request.variant.end()) return request.problem;
   return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
 }

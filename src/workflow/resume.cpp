@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "csv_file.hpp"
-#include "gas_options.hpp"
 #include "hamflow/core/hash.hpp"
 #include "hamflow/core/option_names.hpp"
+#include "hamflow/run/gas.hpp"
 #include "json_text.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
@@ -24,17 +24,17 @@ constexpr double checkpoint_seconds = 10;
 
 std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
-std::string contents_key() { return "problem." + gas_options().file.name + ": contents"; }
+std::string file_key(const Scenario& scenario) { return "problem." + scenario.problem->info.file_key; }
+std::string contents_key(const Scenario& scenario) { return file_key(scenario) + ": contents"; }
 
 /// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
 std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   std::map<std::string, Setting> all = scenario.settings;
   if (!scenario.start_contents) return all;
-  const std::string key = "problem." + gas_options().file.name;
-  const auto file = all.find(key);
+  const auto file = all.find(file_key(scenario));
   const Setting where = file == all.end() ? Setting{{}, 1, 1} : file->second;
-  all.emplace(contents_key(), Setting{"those with the hash " + fmt::format("{:016x}", *scenario.start_contents),
-                                      where.line, where.column});
+  all.emplace(contents_key(scenario), Setting{"those with the hash " + fmt::format("{:016x}", *scenario.start_contents),
+                                              where.line, where.column});
   return all;
 }
 
@@ -93,7 +93,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   }
   for (const auto& [key, value] : before) {
     // The file is gone, and the start is that of run.h5.
-    if (key == contents_key() && !scenario.start_contents) continue;
+    if (key == contents_key(scenario) && !scenario.start_contents) continue;
     if (is_free_on_resume(key) || settings.contains(key)) continue;
     complain(key, "missing; allowed with " + option_name("resume") + " " + shown(value) + ", as when the run began");
   }
@@ -205,7 +205,7 @@ CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& s
   Checkpoint now = beginning_of(scenario, checkpoint_.identity);
   if (!scenario.start_contents) {  // what the file held when the run began is still known
     for (std::size_t i = 0; i < checkpoint_.keys.size(); ++i) {
-      if (checkpoint_.keys[i] != contents_key()) continue;
+      if (checkpoint_.keys[i] != contents_key(scenario)) continue;
       now.keys.push_back(checkpoint_.keys[i]);
       now.values.push_back(checkpoint_.values[i]);
     }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "hamflow/run/gas.hpp"
 #include "hamflow/verify/magnitude.hpp"
 
 namespace hamflow {
@@ -47,9 +46,7 @@ double log10_of_unit(const std::string& arithmetic) {
 std::size_t bodies_in(const Scenario& scenario) {
   const Texts& parameters = scenario.request.parameters;
   const std::size_t size = scenario.start_q.size();
-  if (scenario.request.problem == GasKeys::problem) {
-    return size / static_cast<std::size_t>(number_value(parameters.at(GasKeys::dimension)));
-  }
+  if (scenario.problem->particles) return size / scenario.problem->particles(parameters).space;
   const std::vector<InvariantInfo>& invariants = scenario.problem->info.invariants;
   for (std::size_t i = 0; i < invariants.size(); ++i) {
     if (invariants[i].components == Components::space) {

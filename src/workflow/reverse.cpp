@@ -8,7 +8,6 @@
 
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
 #include "json_text.hpp"
 #include "number_text.hpp"
@@ -179,7 +178,7 @@ BodiesReturned bodies_returned(const Scenario& scenario, const Simulation& simul
   if (r.steps > 0 && !by_forces_alone) {
     if (effort.force > 0) all.force_evaluations = effort.force;
     all.note = fmt::format(other_than_forces, describe(scenario.request.method).name);
-  } else if (scenario.request.parameters.contains(GasKeys::cutoff)) {
+  } else if (scenario.problem->has_cutoff) {
     all.force_evaluations = effort.force;
     all.note = uncounted_pairs;
   } else {

@@ -8,7 +8,6 @@
 #include "hamflow/problems/solar_system.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 
@@ -58,16 +57,15 @@ std::string unit_of(const InvariantInfo& invariant, const Units& units) {
 /// What the particles of a gas say of themselves in H5MD; of other problems nothing.
 H5mdParticles particles_of(const Scenario& scenario) {
   H5mdParticles all;
-  if (scenario.request.problem != GasKeys::problem) return all;
-  const Parameters<double> parameters(scenario.request.parameters);
-  all.space = static_cast<std::size_t>(parameters[GasKeys::dimension]);
-  all.masses = parameters.list(GasKeys::masses);
+  const ProblemEntry& problem = *scenario.problem;
+  if (!problem.particles) return all;
+  ParticleFacts particles = problem.particles(scenario.request.parameters);
+  all.space = particles.space;
+  all.masses = std::move(particles.masses);
   all.masses.resize(scenario.start_q.size() / all.space, all.masses.front());
-  const auto container = scenario.request.variant.find(GasKeys::container);
-  const bool periodic = container != scenario.request.variant.end() && container->second == ContainerNames::periodic;
-  all.boundary.assign(all.space, periodic ? "periodic" : "none");
-  if (parameters.has(GasKeys::size)) all.edges = parameters.list(GasKeys::size);
-  if (parameters.has(GasKeys::radius)) all.edges.assign(all.space, 2 * parameters[GasKeys::radius]);
+  all.boundary.assign(all.space, problem.container == ContainerNames::periodic ? "periodic" : "none");
+  all.edges = std::move(particles.edges);
+  if (particles.radius > 0) all.edges.assign(all.space, 2 * particles.radius);
   all.author = author_name();
   all.time_grows = scenario.dt > 0;
   const bool start_is_a_sample =

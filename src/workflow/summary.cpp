@@ -68,12 +68,12 @@ Value::Table parameters_of(const Scenario& scenario) {
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
   for (const auto& [key, value] : scenario.problem->info.variant) {
     // Those of the problem `formula` are its texts, which the scenario has; the values of parameters stand below.
-    if (scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters) continue;
+    if (has_typed_hamiltonian(*scenario.problem) || key == FormulaKeys::parameters) continue;
     const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
     set(parameters, key, is_number ? Value(std::stoi(value)) : Value(value));
   }
-  if (const auto walls = scenario.request.walls) {
-    if (scenario.request.problem == GasKeys::problem && without.at(GasKeys::container) == ContainerNames::box) {
+  if (const auto& walls = scenario.request.walls) {
+    if (scenario.problem->container == ContainerNames::box) {
       // The box says the rest.
       set(parameters, wall_keys().wall_rule.name, wall_rules()[static_cast<std::size_t>(walls->rule)]);
     } else {
@@ -293,8 +293,9 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
                          [&](const ParameterInfo& each) { return each.name == name; });
     };
     if (problem.has_pairwise_forces) {  // a kick is refused long before it is as large as what it is added to
-      text += has(GasKeys::exponent) ? "; if two bodies met or one came near the soft wall, whose kick was too large, "
-                                     : "; if two bodies met, whose kick was too large, ";
+      text += problem.container == ContainerNames::circle
+                  ? "; if two bodies met or one came near the soft wall, whose kick was too large, "
+                  : "; if two bodies met, whose kick was too large, ";
       text += has("softening") ? "a smaller dt or a softening" : "a smaller dt";
     }
   }
@@ -426,7 +427,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   if (s.final.is_large) {
     s.final.t = frame.time;
     s.final.digits.time = frame.digits.time;
-    s.final.dataset = request.problem == GasKeys::problem ? "/particles/all" : "/q, /p";
+    s.final.dataset = problem.particles ? "/particles/all" : "/q, /p";
   } else {
     s.final = state_at(frame.time, frame.q, frame.p, frame.digits);
   }

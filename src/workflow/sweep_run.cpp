@@ -5,7 +5,6 @@
 
 #include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/gas.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "measures/measures.hpp"
 #include "run_keys.hpp"
@@ -55,7 +54,7 @@ bool decides_columns(const std::string& path) {
 /// Of members of a gas that are done, read anew, how many may have let particles pass through each other: told once,
 /// of the first.
 void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Warning>& warnings) {
-  if (sweep.common().request.problem != GasKeys::problem) return;
+  if (!sweep.common().problem->particles) return;
   MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
   std::size_t count = 0;
   std::size_t first = 0;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/gas.hpp"
+#include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
@@ -208,29 +208,17 @@ void add_no_numbers(const Summary& summary, std::vector<Warning>& all) {
                                   " not finite at the start or at the end: nothing is said of how far off"});
 }
 
-/// The distance within which two particles of a gas repel each other, in the lengths of the positions: that of the
-/// least of a Lennard-Jones pair's energy, or its cut-off, where that is less; 0 of other laws.
-double core_of(const Request& request) {
-  if (request.problem != GasKeys::problem) return 0;
-  const auto pair = request.variant.find(GasKeys::pair);
-  if (pair != request.variant.end() && pair->second != "lennard-jones") return 0;
-  const Parameters<double> given(request.parameters);
-  const bool usual_form = given.has("sigma") || given.has("epsilon");
-  double least = usual_form ? std::pow(2.0, 1.0 / 6) * (given.has("sigma") ? given["sigma"] : 1) : 1;
-  if (given.has(GasKeys::cutoff)) least = std::min(least, given[GasKeys::cutoff]);
-  return least / given[GasKeys::scale];
+double mass_of(const ParticleFacts& particles, std::size_t i) {
+  return i < particles.masses.size() ? particles.masses[i] : particles.masses.front();
 }
 
-double fastest(const Request& request, const std::vector<double>& p) {
-  const Parameters<double> given(request.parameters);
-  const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
-  std::vector<double> masses = given.list(GasKeys::masses);
-  masses.resize(p.size() / space, masses.front());
+double fastest(const ParticleFacts& particles, const std::vector<double>& p) {
+  const std::size_t space = particles.space;
   double most = 0;
-  for (std::size_t i = 0; i < masses.size(); ++i) {
+  for (std::size_t i = 0; i < p.size() / space; ++i) {
     double square = 0;
     for (std::size_t c = i * space; c < (i + 1) * space; ++c) square += p[c] * p[c];
-    most = std::max(most, std::sqrt(square) / masses[i]);
+    most = std::max(most, std::sqrt(square) / mass_of(particles, i));
   }
   return most;
 }
@@ -241,18 +229,14 @@ struct Nearest {
   std::size_t one = 0, other = 0;
 };
 /// @return nothing of more particles than are worth the time
-std::optional<Nearest> nearest(const Request& request, const std::vector<double>& q) {
-  const Parameters<double> given(request.parameters);
-  const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
+std::optional<Nearest> nearest(const ProblemEntry& problem, const ParticleFacts& particles,
+                               const std::vector<double>& q) {
+  const std::size_t space = particles.space;
   constexpr std::size_t most_particles = 3000;
   const std::size_t count = q.size() / space;
   if (count > most_particles) return {};
-  const auto container = request.variant.find(GasKeys::container);
   std::vector<double> edges(space, 0.0);
-  if (container != request.variant.end() && container->second == "periodic") {
-    const std::vector<double> size = given.list(GasKeys::size);
-    for (std::size_t k = 0; k < space && k < size.size(); ++k) edges[k] = size[k];
-  }
+  if (problem.container == ContainerNames::periodic) edges = particles.edges;
   Nearest found;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
@@ -271,12 +255,10 @@ std::optional<Nearest> nearest(const Request& request, const std::vector<double>
 
 /// Whether the energy tells how near these two are: on the way to each other it changes by more than both move with.
 /// Through a smooth core they may pass.
-bool has_core(const Request& request, const ProblemEntry& problem, const std::vector<double>& q,
-              const std::vector<double>& p, const Nearest& two) {
-  const Parameters<double> given(request.parameters);
-  const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
-  const std::vector<double> masses = given.list(GasKeys::masses);
-  const auto mass = [&](std::size_t i) { return i < masses.size() ? masses[i] : masses.front(); };
+bool has_core(const Request& request, const ProblemEntry& problem, const ParticleFacts& particles,
+              const std::vector<double>& q, const std::vector<double>& p, const Nearest& two) {
+  const std::size_t space = particles.space;
+  const auto mass = [&](std::size_t i) { return mass_of(particles, i); };
   std::vector<double> near = q;
   double kinetic = 0;
   for (std::size_t k = 0; k < space; ++k) {
@@ -294,10 +276,11 @@ bool has_core(const Request& request, const ProblemEntry& problem, const std::ve
 /// What is known of a Lennard-Jones pair is the distance within which it repels; of other laws, how near two stand.
 std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
                               const Frame& end) {
-  if (request.problem != GasKeys::problem || !takes_equal_steps(describe(request.method))) return {};
-  const double speed = std::max(fastest(request, start.p), fastest(request, end.p));
+  if (!problem.particles || !takes_equal_steps(describe(request.method))) return {};
+  const ParticleFacts particles = problem.particles(request.parameters);
+  const double speed = std::max(fastest(particles, start.p), fastest(particles, end.p));
   const double move = speed * std::abs(dt);
-  if (const double core = core_of(request); core != 0) {
+  if (const double core = particles.repulsion; core != 0) {
     if (!(4 * move > core)) return {};
     return fmt::format(
         "a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
@@ -305,9 +288,9 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
         move, core, core / (20 * speed));
   }
   for (const Frame* at : {&start, &end}) {
-    const auto two = nearest(request, at->q);
+    const auto two = nearest(problem, particles, at->q);
     if (!two || !(two->distance > 0 && move > two->distance / 2)) continue;
-    if (!has_core(request, problem, at->q, at->p, *two)) continue;
+    if (!has_core(request, problem, particles, at->q, at->p, *two)) continue;
     return fmt::format(
         "a particle moves {:.3g} in a step, and two stand {:.3g} apart: they may pass through "
         "each other unseen; try dt = {:.2g} or less",
@@ -320,9 +303,12 @@ namespace {
 
 /// Two particles of a gas that start deep within each other, where no dt helps; empty where there are none.
 std::string overlap_at_start(const Scenario& scenario) {
-  const double core = core_of(scenario.request);
+  const ProblemEntry& problem = *scenario.problem;
+  if (!problem.particles) return {};
+  const ParticleFacts particles = problem.particles(scenario.request.parameters);
+  const double core = particles.repulsion;
   if (core == 0) return {};
-  const auto two = nearest(scenario.request, scenario.start_q);
+  const auto two = nearest(problem, particles, scenario.start_q);
   if (!two || !(two->distance < core / 2)) return {};
   return fmt::format(
       "; particles {} and {} start {:.3g} apart, although a pair repels within {:.3g}: no dt helps, start them farther "

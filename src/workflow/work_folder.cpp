@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "figure_kinds.hpp"
-#include "gas_options.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
@@ -136,7 +135,7 @@ bool is_among(const fs::path& file, const fs::path& folder, const Names& names) 
 
 /// @throws Rejection when the file from which particles start is among those names
 void refuse_own_input(const Scenario& scenario, const fs::path& folder, const Names& removed) {
-  const std::string key = "problem." + gas_options().file.name;
+  const std::string key = "problem." + scenario.problem->info.file_key;
   const auto given = scenario.settings.find(key);
   if (given == scenario.settings.end()) return;
   // A setting is kept as it would stand in a file: with quotes.

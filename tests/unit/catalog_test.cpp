@@ -353,5 +353,46 @@ TEST(Catalog, KnowsWhereAProblemIsSingular) {
   EXPECT_TRUE(kepler.regular(parameters, {1, 0}, {0, 1}));
 }
 
+TEST(Catalog, AnEntrySaysWhatItsParticlesAre) {
+  for (const ProblemEntry& entry : problems()) {
+    EXPECT_EQ(static_cast<bool>(entry.particles), !entry.container.empty()) << entry.info.name;
+  }
+  const Texts edges{{"size", "[4, 2]"}, {"masses", "[1, 3]"}, {"scale", "2"}};
+  const auto box = find_problem("gas", {{"pair", "lennard-jones"}, {"container", "box"}});
+  const ParticleFacts in_box = box->particles(complete(box->info, edges));
+  EXPECT_EQ(box->container, "box");
+  EXPECT_FALSE(box->has_cutoff);
+  EXPECT_EQ(in_box.space, 2u);
+  EXPECT_EQ(in_box.edges, (std::vector<double>{4, 2}));
+  EXPECT_EQ(in_box.masses, (std::vector<double>{1, 3}));
+  EXPECT_EQ(in_box.radius, 0);
+  EXPECT_EQ(in_box.repulsion, 0.5);
+  const auto cut = find_problem("gas", {{"pair", "newton"}, {"cutoff_kind", "shifted"}});
+  const ParticleFacts in_circle = cut->particles(complete(cut->info, {{"cutoff", "2.5"}, {"dimension", "3"}}));
+  EXPECT_TRUE(cut->has_cutoff);
+  EXPECT_EQ(cut->container, "circle");
+  EXPECT_EQ(in_circle.space, 3u);
+  EXPECT_EQ(in_circle.radius, 1.5);
+  EXPECT_EQ(in_circle.repulsion, 0);
+}
+
+TEST(Catalog, EveryTypedChoiceHasAnExampleInEachChart) {
+  std::set<std::pair<std::string, std::string>> wanted;
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.typed_choice.empty()) continue;
+    wanted.emplace(entry.info.name, choice_of(entry.info, entry.info.chart_key));
+  }
+  std::set<std::pair<std::string, std::string>> found;
+  for (const ProblemEntry& entry : typed_examples()) {
+    EXPECT_TRUE(entry.structure.has_value());
+    EXPECT_FALSE(has_typed_hamiltonian(entry));
+    EXPECT_FALSE(entry.info.keys.empty());
+    EXPECT_EQ(choice_of(entry.info, entry.info.typed_choice), "formula");
+    found.emplace(entry.info.name, choice_of(entry.info, entry.info.chart_key));
+  }
+  EXPECT_EQ(found, wanted);
+  EXPECT_TRUE(has_typed_hamiltonian(formula_example()));
+}
+
 }  // namespace
 }  // namespace hamflow

@@ -55,6 +55,22 @@ TEST(Number, IsReadInTheWorkingArithmetic) {
   EXPECT_EQ(evaluate_number<long double>("pi"), 3.14159265358979323846264338327950288L);
 }
 
+/// A literal that stands alone is read without the formula around it.
+TEST(Number, ALoneLiteralHasTheBitsThatItHasInAFormula) {
+  for (const std::string text :
+       {"0", "-0", "7", "5.", "-5.", "0.1", "-0.1", "1e5", "1E+5", "2.5e-3", "-2.5e-310", "5e-324", "1e-400",
+        "1.7976931348623157e308", "9007199254740993", "0.31356843771250245879434867132452341234512345"}) {
+    const double alone = evaluate_number<double>(text);
+    const double inside = evaluate_number<double>("(" + text + ")");
+    EXPECT_EQ(alone, inside) << text;
+    EXPECT_EQ(std::signbit(alone), std::signbit(inside)) << text;
+    EXPECT_EQ(evaluate_number<Quad>(text), evaluate_number<Quad>("(" + text + ")")) << text;
+  }
+  for (const std::string text : {"1e", "1e+", "1.5.2", "1 2", "-", "", "1e999", "-1e999"}) {
+    EXPECT_THROW((void)evaluate_number<double>(text), Error) << text;
+  }
+}
+
 std::string complaint(const std::string& text) {
   return test::message_of<Error>([&] { (void)evaluate_number<double>(text); });
 }

@@ -7,6 +7,7 @@
 // so that a reader of options can pass it on after the name of its option. Columns count characters from 1.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -26,7 +27,11 @@ template <class R>
 R parse_decimal(std::string_view text);
 template <>
 inline double parse_decimal<double>(std::string_view text) {
-  return std::strtod(std::string(text).c_str(), nullptr);
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [behind, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc() && behind == end) return value;
+  return std::strtod(std::string(text).c_str(), nullptr);  // what rounds to 0 or to infinity
 }
 template <>
 inline long double parse_decimal<long double>(std::string_view text) {
@@ -39,6 +44,9 @@ R pi_value() {
   return parse_decimal<R>("3.14159265358979323846264338327950288419716939937510582097494459");
 }
 
+/// Whether a text is one decimal literal, as most numbers are.
+bool is_literal(std::string_view text);
+
 /// The value of a formula of numbers in R: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), pi or Pi, parentheses, and the
 /// functions sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs. At most 10^6 characters, 10^4
 /// operations, and 200 nested signs, powers and parentheses.
@@ -46,6 +54,11 @@ R pi_value() {
 /// real number in R
 template <class R>
 R evaluate_number(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (is_literal(text.substr(negative ? 1 : 0))) {
+    const R value = parse_decimal<R>(text.substr(negative ? 1 : 0));
+    if (abs(value) <= std::numeric_limits<R>::max()) return negative ? R(-value) : value;
+  }
   const Syntax syntax = read_syntax(text, {.only_numbers = true, .characters = 1'000'000, .operations = 10'000});
   std::vector<R> stack;
   for (const Part& part : syntax.parts) {

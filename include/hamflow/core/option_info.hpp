@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -81,7 +82,7 @@ std::string default_text(const OptionInfo& option);
 std::string toml_text(const OptionInfo& option, const std::string& text);
 
 /// The option of that name; null where there is none.
-const OptionInfo* find_option(const std::vector<OptionInfo>& options, const std::string& name);
+const OptionInfo* find_option(std::span<const OptionInfo> options, const std::string& name);
 std::vector<std::string> option_names(const std::vector<OptionInfo>& options);
 
 /// The value of a text that refused_value() has nothing against.

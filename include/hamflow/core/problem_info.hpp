@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -74,6 +75,7 @@ struct ExampleInfo {
   double dt = 0;
   std::int64_t steps = 1000;
   std::string start{};  // the kind of the geometric start that is active; empty: the state
+  Texts keys{};         // of ProblemInfo::keys those that are set, with their values; empty: the example of the key
 };
 
 /// A wall that belongs to the problem.
@@ -92,11 +94,16 @@ struct ProblemInfo {
   /// one motion; all but the one in the reference chart have to_reference and from_reference
   /// (core/optional_functions.hpp). Empty: there are no other coordinates.
   std::string chart_key{};
+  /// The key of `variant` that takes "formula", too: the choice is then typed (run/catalog.hpp, typed_examples).
+  std::string typed_choice{};
   std::string formula{};
   std::string reference{};
   std::vector<std::string> coordinates{};
   std::vector<std::string> angles{};  // coordinates with period 2 pi; they are not wrapped
   std::vector<ParameterInfo> parameters{};
+  /// The keys of [problem], in the order in which they are shown, where others than the parameters stand there.
+  std::span<const OptionInfo> keys{};
+  std::string file_key{};  // the one that names a file with the start; empty: there is none
   std::vector<InvariantInfo> invariants{};
   std::vector<StartInfo> starts{};
   /// Empty: the starts are chosen by the kind of `orbit`. Else this key of the problem counts them, 1, 2, ..., and
@@ -119,6 +126,11 @@ struct ProblemInfo {
   RegionInfo region{};
   ExampleInfo example{};
 };
+
+/// The keys of [problem] that give the problem, beside those of its choices and its start.
+inline std::span<const OptionInfo> keys_of(const ProblemInfo& info) {
+  return info.keys.empty() ? std::span<const OptionInfo>(info.parameters) : info.keys;
+}
 
 /// The value of a selecting key in this entry; empty if it has no such key.
 inline std::string choice_of(const ProblemInfo& info, const std::string& key) {

@@ -71,6 +71,15 @@ struct EnergyGradient {
   std::vector<double> by_p;
 };
 
+/// The particles of which a problem consists.
+struct ParticleFacts {
+  std::size_t space = 0;         // numbers of a position
+  std::vector<double> masses{};  // of all, or one for each
+  std::vector<double> edges{};   // of the box that holds them
+  double radius = 0;             // of the circle
+  double repulsion = 0;          // within this distance two repel each other; 0: not known
+};
+
 /// One problem of the catalogue (a problem with a choice of potential has one entry for each). Parameters are complete.
 struct ProblemEntry {
   ProblemInfo info;
@@ -87,7 +96,12 @@ struct ProblemEntry {
   /// Whether the problem has what the method needs.
   std::function<bool(const MethodSpec&)> accepts;
   bool has_pairwise_forces = false;  // on the lattice several threads may compute them
-  bool has_distance = false;         // from a centre or between bodies, which steps can follow
+  /// What holds the particles of which the problem consists, a name of problems/support/container.hpp; empty: it does
+  /// not consist of particles, and `particles` is empty.
+  std::string container{};
+  std::function<ParticleFacts(const Texts& parameters)> particles{};
+  bool has_cutoff = false;    // forces of pairs end at a distance
+  bool has_distance = false;  // from a centre or between bodies, which steps can follow
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The same problem behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
@@ -162,6 +176,13 @@ void check_arithmetic(const std::string& arithmetic);
 /// The problem `formula` as it stands in lists: an example. That of given texts is found by formula_choices
 /// (formula/problem_texts.hpp).
 ProblemEntry formula_example();
+/// The problems of which one choice is typed (ProblemInfo::typed_choice), in each chart: examples, whose info has the
+/// keys of a scenario.
+std::span<const ProblemEntry> typed_examples();
+/// Whether the whole Hamiltonian is typed, and not one choice alone.
+inline bool has_typed_hamiltonian(const ProblemEntry& problem) {
+  return problem.structure && problem.info.typed_choice.empty();
+}
 /// @throws Error with the nearest name when there is no such name
 const MethodEntry& find_method(const std::string& name);
 /// The entry of a typed problem, or of one behind walls, is made here: it lives as long as somebody holds it.

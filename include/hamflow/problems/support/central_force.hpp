@@ -52,6 +52,7 @@ class CentralForce {
                     .default_choices = {"coordinates"},
                     .example_choices = of_potential.example_choices,
                     .chart_key = "coordinates",
+                    .typed_choice = "potential",
                     .formula = "H = |p|^2/(2 mu) + V(r), " + of_potential.formula,
                     .reference = "Gross1999, (2.45)-(2.60); " + of_potential.reference,
                     .coordinates = {"x", "y"},

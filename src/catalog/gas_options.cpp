@@ -1,5 +1,3 @@
-#include "gas_options.hpp"
-
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
 #include "hamflow/run/gas.hpp"
@@ -9,7 +7,6 @@ namespace hamflow {
 namespace {
 
 GasOptions declared() {
-  using Keys = GasKeys;
   GasOptions o;
   o.particles_per_side = {.name = "particles_per_side",
                           .meaning = "n: n^2 particles in the plane, n^3 in space",
@@ -43,7 +40,7 @@ GasOptions declared() {
           "of five places",
       .range = Range::whole_from(0, 0x1p53),
       .condition = "with start = \"lattice\""};
-  o.masses = {.name = Keys::masses,
+  o.masses = {.name = GasKeys::masses,
               .default_value = "1",
               .meaning =
                   "of all particles, or one for each: inertia alone, phi is that of every pair (gravity between "
@@ -51,25 +48,25 @@ GasOptions declared() {
               .range = Range::positive,
               .type = OptionType::number_or_list};
   o.dimension = {
-      .name = Keys::dimension, .default_value = "2", .meaning = "of space", .range = Range::whole_from(2, 3)};
-  o.pair = {.name = Keys::pair,
+      .name = GasKeys::dimension, .default_value = "2", .meaning = "of space", .range = Range::whole_from(2, 3)};
+  o.pair = {.name = GasKeys::pair,
             .default_value = "lennard-jones",
             .meaning = "phi of a pair; formula: phi = \"...\"",
             .type = OptionType::word};
   for (const ProblemInfo& law : pair_laws()) o.pair.words.push_back(law.name);
-  o.pair.words.emplace_back(Keys::typed);
-  o.phi = {.name = Keys::phi,
+  o.pair.words.emplace_back(GasKeys::typed);
+  o.phi = {.name = GasKeys::phi,
            .meaning = "phi of r and the parameters",
            .type = OptionType::text,
            .condition = "with pair = \"formula\"",
            .example = "r^-9 - a*r^-6"};
-  o.parameters = {.name = Keys::parameters,
+  o.parameters = {.name = GasKeys::parameters,
                   .meaning = "numbers and lists by name",
                   .type = OptionType::table,
                   .unset = "none",
                   .condition = "with pair = \"formula\"",
                   .example = "{ a = 1 }"};
-  o.scale = {.name = Keys::scale,
+  o.scale = {.name = GasKeys::scale,
              .meaning =
                  "S, lengths of the potential for one of the coordinates; per-side: neighbours of the start one "
                  "length of the potential apart; listing: (N - 1)/2 with N particles",
@@ -84,23 +81,23 @@ GasOptions declared() {
                           "image of each particle; none",
                .type = OptionType::word,
                .words = {ContainerNames::circle, ContainerNames::box, ContainerNames::periodic, ContainerNames::none}},
-      .radius = {.name = Keys::radius,
+      .radius = {.name = GasKeys::radius,
                  .default_value = "1.5",
                  .meaning = "of the circle",
                  .range = Range::positive,
                  .condition = "with kind = \"circle\""},
-      .exponent = {.name = Keys::exponent,
+      .exponent = {.name = GasKeys::exponent,
                    .default_value = "1",
                    .meaning = "e of V = 1/(2 S^(2+2e)) sum 1/(radius^2 - |q|^2)^e",
                    .range = {.least = 1},
                    .condition = "with kind = \"circle\""},
-      .size = {.name = Keys::size,
+      .size = {.name = GasKeys::size,
                .meaning = "edges of the box, whose middle is the origin",
                .range = Range::positive,
                .type = OptionType::list,
                .condition = "with kind = \"box\", \"periodic\"",
                .example = "[2, 2]"}};
-  o.container = {.name = Keys::container,
+  o.container = {.name = GasKeys::container,
                  .meaning = "what holds the particles",
                  .type = OptionType::table,
                  .unset = "a circle",
@@ -118,16 +115,16 @@ GasOptions declared() {
                           "C^4",
                .type = OptionType::word,
                .words = {CutoffNames::shifted, CutoffNames::force_shifted, CutoffNames::smooth}},
-      .inner = {.name = Keys::inner,
+      .inner = {.name = GasKeys::inner,
                 .meaning = "from which on phi fades",
                 .range = Range::positive,
                 .condition = "with kind = \"smooth\"",
                 .example = "2"},
-      .skin = {.name = Keys::skin,
+      .skin = {.name = GasKeys::skin,
                .default_value = "0.3",
                .meaning = "of the lists of neighbours; it changes no bit",
                .range = Range::positive}};
-  o.cutoff = {.name = Keys::cutoff,
+  o.cutoff = {.name = GasKeys::cutoff,
               .meaning = "R, or { radius = R, kind, inner, skin }: where phi ends",
               .type = OptionType::table,
               .unset = "none: all pairs",
@@ -143,17 +140,20 @@ const GasOptions& gas_options() {
   return options;
 }
 
-std::vector<OptionInfo> all_gas_options() {
-  const GasOptions& o = gas_options();
-  std::vector<OptionInfo> all{o.particles_per_side, o.start, o.file, o.seed, o.masses, o.dimension, o.pair};
-  for (const ProblemInfo& law : pair_laws()) {
-    for (OptionInfo option : law.parameters) {
-      option.condition = "with pair = \"" + law.name + "\"";
-      all.push_back(option);
+const std::vector<OptionInfo>& all_gas_options() {
+  static const std::vector<OptionInfo> options = [] {
+    const GasOptions& o = gas_options();
+    std::vector<OptionInfo> all{o.particles_per_side, o.start, o.file, o.seed, o.masses, o.dimension, o.pair};
+    for (const ProblemInfo& law : pair_laws()) {
+      for (OptionInfo option : law.parameters) {
+        option.condition = "with pair = \"" + law.name + "\"";
+        all.push_back(option);
+      }
     }
-  }
-  all.insert(all.end(), {o.phi, o.parameters, o.scale, o.container, o.cutoff});
-  return all;
+    all.insert(all.end(), {o.phi, o.parameters, o.scale, o.container, o.cutoff});
+    return all;
+  }();
+  return options;
 }
 
 }  // namespace hamflow
