@@ -155,10 +155,9 @@ std::string page() {
   for (const ProblemEntry& entry : typed_examples()) {
     if (entry.to_reference) continue;
     text += fmt::format(
-        "### {}, {} = \"formula\"\n\nAs it is typed, with any `{}`, e.g. {}. It starts by `initial`, `bodies` and, "
-        "where V is "
-        "without t,\nby `orbit` with energy and angular momentum.\n\n",
-        entry.info.name, entry.info.typed_choice, entry.info.chart_key, entry.info.formula);
+        "### {0}, {1} = \"formula\"\n\nThe {1} is typed, e.g. {2}, with any `{3}`.\nA run starts by `initial`, "
+        "`bodies` and, where V is without t, `orbit` with energy and angular momentum.\n\n",
+        entry.info.name, entry.info.typed_choice, entry.info.formula, entry.info.chart_key);
     text += table(entry.info.keys);
   }
   const WallKeys& walls = wall_keys();

@@ -237,8 +237,8 @@ void write_problem(std::ostream& out, const ProblemEntry& entry) {
 /// A problem with a choice that is typed.
 void write_typed_choice(std::ostream& out, const ProblemInfo& info) {
   out << fmt::format(
-      "{} with {} = \"formula\" and any {}: as it is typed, e.g. {} (its language: hamflow show formula)\n", info.name,
-      info.typed_choice, info.chart_key, info.formula);
+      "{0} with {1} = \"formula\" and any {2}: the {1} is typed, e.g. {3} (its language: hamflow show formula)\n",
+      info.name, info.typed_choice, info.chart_key, info.formula);
   for (const OptionInfo& option : keys_of(info)) out << option_row(option);
   write_starts(out, info);
 }
