@@ -4,11 +4,14 @@
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "recorded_element.hpp"
+#include "segment_loop.hpp"
 #include "varying_steps.hpp"
 
 namespace hamflow {
 
 namespace {
+
+constexpr Capability natural_h = Capability::separable | Capability::quadratic_kinetic;
 
 template <Capability c>
 auto recorder(const ErasedFunctions<double>& functions, const CgOptions& options, const ElementFrame& frame) {
@@ -20,26 +23,160 @@ auto recorder(const ErasedFunctions<double>& functions, const CgOptions& options
   };
 }
 
+/// Makes a loop from the numbers of a first step; empty where there can be none.
+using SegmentMaker =
+    std::function<std::optional<SegmentLoop>(const SegmentFrame&, std::span<const double>, const IterationTime&)>;
+
+template <Capability c>
+SegmentMaker segment_maker(const ErasedFunctions<double>& functions, const CgOptions& options) {
+  using Traced = AnyProblem<Trace<double>, c>;
+  using Watched = AnyProblem<Trace<double>, Capability::smooth>;
+  return [=](const SegmentFrame& frame, std::span<const double> numbers, const IterationTime& time) {
+    return SegmentRecorder<includes(c, Capability::quadratic_kinetic), Traced, Watched>(
+               Traced(functions.size, functions.trace), Watched(functions.size, functions.trace), options, frame)
+        .loop(numbers, time);
+  };
+}
+
+/// A simulation of cg(1) whose steps go through a segment loop where many are asked for; the bits are the same.
+template <class P, class M, Arithmetic A>
+class SegmentSimulation final : public SimulationOf<P, M, A> {
+  using Base = SimulationOf<P, M, A>;
+  using Base::clock_;
+  using Base::method_;
+  using Base::probe_;
+  using Base::z_;
+  using Equations = typename M::Equations;
+
+ public:
+  /// @param maker empty: every step takes the ordinary road
+  SegmentSimulation(Base simulation, const SegmentFrame& frame, SegmentMaker maker)
+      : Base(std::move(simulation)), frame_(frame), maker_(std::move(maker)) {
+    for_each_carried([&](double&) { ++frame_.recorded; }, z_, probe_);
+  }
+
+  Outcome advance(std::int64_t steps) override {
+    std::int64_t alone = 1;
+    while (steps > 0) {
+      if (!is_worth_running(steps)) return Base::advance(steps);
+      if (fill()) {
+        if (!loop_ && !make_loop()) return Base::advance(steps);
+        Effort effort = method_.effort();
+        const std::int64_t taken = loop_->run(numbers_, steps, effort);
+        if (!std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(frame_.from()),
+                         [](double x) { return std::isfinite(x); })) {
+          return Base::advance(steps);
+        }
+        if (taken > 0) take(taken, effort);
+        steps -= taken;
+        alone = taken < alone ? std::min(2 * alone, most_alone) : 1;
+        if (steps == 0) break;
+      }
+      const std::int64_t now = std::min(alone, steps);
+      if (const Outcome outcome = Base::advance(now); outcome != Outcome::done) return outcome;
+      steps -= now;
+    }
+    return Outcome::done;
+  }
+  void reverse_time() override {
+    Base::reverse_time();
+    loop_.reset();
+  }
+  bool is_recorded() const override { return loop_.has_value(); }
+  [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
+    Base::restore(saved);
+    loop_.reset();  // where time begins is a constant of it
+  }
+  [[gnu::cold]] std::unique_ptr<Simulation> clone() const override {
+    return std::make_unique<SegmentSimulation>(*this);
+  }
+
+ private:
+  /// Recording and compiling cost about as much as so many steps.
+  static constexpr std::int64_t worth_recording = 200;
+  /// Filling a frame costs about as much as a step.
+  static constexpr std::int64_t few_steps = 4;
+  /// Steps in a row that the loop did not take.
+  static constexpr std::int64_t most_alone = 64;
+
+  /// What is asked of every residual, diagnostics and points that change are not in the programs, nor are steps that
+  /// vary.
+  bool is_worth_running(std::int64_t steps) {
+    if (!maker_ || steps < few_steps || Base::varies_steps() || method_.setup().automatic()) return false;
+    const NewtonOptions options = method_.setup().newton();
+    if (options.tolerance || options.diagnostics || options.iteration != Iteration::newton) return false;
+    return loop_ || (asked_ += steps) >= worth_recording;
+  }
+  /// The numbers of the next step. @return whether it begins with a first guess from the last three
+  bool fill() {
+    if (!method_.newton().trusts_memory() || !method_.newton().memory().is_full()) return false;
+    numbers_.assign(frame_.size(), 0.0);
+    const double h = clock_.step_length();
+    numbers_[IterationFrame::h] = h;
+    numbers_[IterationFrame::position] = static_cast<double>(clock_.position());
+    std::size_t k = IterationFrame::carried;
+    for_each_carried([&](double& x) { numbers_[k++] = x; }, z_, probe_);
+    const auto& memory = method_.newton().memory();
+    const Vector<double, dynamic> q0 = z_.positions();
+    const Vector<double, dynamic> p0 = z_.momenta();
+    Effort unused;
+    const Few x = Equations(method_.setup(), Base::problem(), h, q0, p0, unused).started(memory.predicted());
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      for (std::size_t back = 0; back < 3; ++back) {
+        if (memory.last(back).size() != frame_.m) return false;
+        numbers_[frame_.memory() + back * frame_.m + i] = memory.last(back)[i];
+      }
+      numbers_[frame_.x() + i] = x[i];
+    }
+    return true;
+  }
+  [[gnu::cold]] bool make_loop() {
+    loop_ = maker_(frame_, numbers_, {clock_.start(), static_cast<double>(clock_.direction())});
+    if (!loop_) maker_ = {};
+    return loop_.has_value();
+  }
+  void take(std::int64_t steps, const Effort& effort) {
+    std::size_t k = IterationFrame::carried;
+    for_each_carried([&](double& x) { x = numbers_[k++]; }, z_, probe_);
+    for (std::size_t back = 3; back-- > 0;) {
+      Few solution{{}, frame_.m};
+      for (std::size_t i = 0; i < frame_.m; ++i) solution[i] = numbers_[frame_.memory() + back * frame_.m + i];
+      method_.go_on(solution, effort);
+    }
+    clock_.advance(steps);
+  }
+
+  SegmentFrame frame_;
+  SegmentMaker maker_;
+  std::optional<SegmentLoop> loop_;
+  std::vector<double> numbers_;
+  std::int64_t asked_ = 0;
+};
+
 }  // namespace
 
 std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const Request& request,
                                                       const CgOptions& options) {
-  constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
   using P = Erased<double, Capability::smooth>;
   const std::size_t n = run.functions.size;
   if (n > ElementFrame::most_coordinates) return nullptr;
-  RecordedElementOptions recorded{options, {n, n}, {}};
-  if (includes(run.functions.capability, natural)) {
-    recorded.record = recorder<natural>(run.functions, options, recorded.frame);
+  const bool is_natural = includes(run.functions.capability, natural_h);
+  RecordedElementOptions recorded{options, {n, is_natural ? n : 2 * n}, {}};
+  SegmentMaker maker;
+  if (is_natural) {
+    recorded.record = recorder<natural_h>(run.functions, options, recorded.frame);
+    maker = segment_maker<natural_h>(run.functions, options);
   } else {
-    recorded.frame.m = 2 * n;
     recorded.record = recorder<Capability::smooth>(run.functions, options, recorded.frame);
+    maker = segment_maker<Capability::smooth>(run.functions, options);
   }
+  if (!request.record || recorded.frame.m > SegmentFrame::most_unknowns || run.functions.plain->has_clock()) maker = {};
   using A = Compensated<double>;
   using Method = ImplicitMethod<P, A, RecordedElement<P>>;
   const P problem = run.functions.as<Capability::smooth>();
-  auto simulation =
-      std::make_unique<SimulationOf<P, Method, A>>(problem, Method(problem, recorded), run.q, run.p, run.h);
+  auto simulation = std::make_unique<SegmentSimulation<P, Method, A>>(
+      SimulationOf<P, Method, A>(problem, Method(problem, recorded), run.q, run.p, run.h),
+      SegmentFrame{n, recorded.frame.m, 0}, maker);
   vary_steps_as_requested(*simulation, run, request);
   return simulation;
 }

@@ -127,6 +127,7 @@ class ElementOnFrame {
   using Point = typename Plain::Point;
   using Frame = std::vector<Number>;
 
+ public:
   /// With what the programs need of it.
   class Element : public Plain {
    public:
@@ -157,7 +158,6 @@ class ElementOnFrame {
     }
   };
 
- public:
   ElementOnFrame(const P& problem, const CgOptions& options, const ElementFrame& frame)
       : problem_(problem), setup_(problem, options), frame_(frame) {}
 

@@ -11,6 +11,10 @@ class Extrapolation {
  public:
   bool empty() const { return remembered_ == 0; }
   void forget() { remembered_ = 0; }
+  /// Whether as many are remembered as are extrapolated from.
+  bool is_full() const { return remembered_ == 3; }
+  /// The k-th last one, from 0.
+  const V& last(std::size_t k) const { return last_[k]; }
   void remember(const V& x) {
     last_[2] = last_[1];
     last_[1] = last_[0];
