@@ -63,7 +63,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
         if (!loop_ && !make_loop()) return Base::advance(steps);
         Effort effort = method_.effort();
         const std::int64_t taken = loop_->run(numbers_, steps, effort);
-        if (!std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(frame_.from()),
+        if (!std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(frame_.correction()),
                          [](double x) { return std::isfinite(x); })) {
           return Base::advance(steps);
         }
@@ -170,7 +170,7 @@ std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& r
     recorded.record = recorder<Capability::smooth>(run.functions, options, recorded.frame);
     maker = segment_maker<Capability::smooth>(run.functions, options);
   }
-  if (!request.record || recorded.frame.m > SegmentFrame::most_unknowns || run.functions.plain->has_clock()) maker = {};
+  if (!request.record || run.functions.plain->has_clock()) maker = {};
   using A = Compensated<double>;
   using Method = ImplicitMethod<P, A, RecordedElement<P>>;
   const P problem = run.functions.as<Capability::smooth>();

@@ -1,6 +1,6 @@
 // Steps of cg(1) of few coordinates by two programs, around which Newton's decisions stand
-// (numerics/newton_progress.hpp): one correction of the unknowns, and what a step leaves behind, the first guess of the
-// next step included. Their bits are those of RecordedElement. A step that leaves their straight road is for the
+// (numerics/newton_progress.hpp): the equations at the present unknowns, and what a step leaves behind, the first guess
+// of the next step included. Their bits are those of RecordedElement. A step that leaves their straight road is for the
 // simulation itself.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "erased.hpp"
 #include "hamflow/methods/implicit/element_programs.hpp"
 #include "hamflow/numerics/newton_progress.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
@@ -17,41 +18,42 @@
 namespace hamflow {
 
 /// Where the numbers of a step stand: h, position, state and probe, the last three solutions (the latest first), the
-/// unknowns, then what one correction leaves for the end of the step.
+/// unknowns and their last correction, then what the equations are there.
 struct SegmentFrame {
-  static constexpr std::size_t most_unknowns = 2;  // whose linear system is Cramer's
-  std::size_t n = 0;                               // coordinates
-  std::size_t m = 0;                               // unknowns of Newton
-  std::size_t recorded = 0;                        // numbers in the archives of state and probe
+  std::size_t n = 0;         // coordinates
+  std::size_t m = 0;         // unknowns of Newton, n or 2 n
+  std::size_t recorded = 0;  // numbers in the archives of state and probe
 
+  bool is_natural() const { return m == n; }
   /// As TracedFrame knows them.
   IterationFrame carried() const { return {n, m, recorded}; }
   std::size_t memory() const { return carried().memory(); }
   std::size_t x() const { return memory() + 3 * m; }
-  std::size_t from() const { return x() + m; }                  // the unknowns before the last correction
-  std::size_t correction() const { return from() + m; }         // the last one
-  std::size_t corrections() const { return correction() + m; }  // how many there were
-  std::size_t size_of_correction() const { return corrections() + 1; }
-  std::size_t total() const { return size_of_correction() + 1; }
-  std::size_t noise() const { return total() + 1; }
-  std::size_t hidden() const { return noise() + 1; }  // above 0: rounding hides the unknowns
-  std::size_t sum() const { return hidden() + 1; }    // of the element's point, as its target and its matrix
+  std::size_t correction() const { return x() + m; }
+  std::size_t residual() const { return correction() + m; }
+  std::size_t lost() const { return residual() + m; }  // what rounding has taken from the residual; or all without it
+  std::size_t tangent() const { return lost() + m; }   // row after row
+  std::size_t flight() const { return tangent() + m * m; }
+  std::size_t sum() const { return flight() + 1; }
   std::size_t target() const { return sum() + m; }
-  std::size_t matrix() const { return target() + m; }
-  std::size_t size() const { return matrix() + m * m; }
+  std::size_t noise() const { return target() + m; }      // of a general element
+  std::size_t stiffness() const { return target() + m; }  // of a natural one
+  std::size_t size() const { return target() + m + m * m; }
 };
 
 class SegmentLoop {
+  using P = Erased<double, Capability::smooth>;
+
  public:
-  /// @param of_correction the work of one correction
-  SegmentLoop(const SegmentFrame& frame, const Program& correct, const Program& finish, const Effort& of_correction,
+  /// @param work of one evaluation of the equations
+  SegmentLoop(const SegmentFrame& frame, const Program& equations, const Program& finish, const Effort& work,
               int most_corrections)
       : frame_(frame),
-        correct_(make_step_loop(correct)),
+        equations_(make_step_loop(equations)),
         finish_(make_step_loop(finish)),
-        of_correction_(of_correction),
+        work_(work),
         most_corrections_(most_corrections),
-        before_(frame.from()) {}
+        before_(frame.correction()) {}
 
   /// Takes steps from a frame with a first guess, until a step is for the simulation.
   /// @return how many were taken; the frame is behind them   @param effort to which their work is added
@@ -64,9 +66,9 @@ class SegmentLoop {
         std::copy(before_.begin(), before_.end(), numbers.begin());
         break;
       }
-      effort.force += corrections * of_correction_.force;
-      effort.gradient += corrections * of_correction_.gradient;
-      effort.hessian += corrections * of_correction_.hessian;
+      effort.force += corrections * work_.force;
+      effort.gradient += corrections * work_.gradient;
+      effort.hessian += corrections * work_.hessian;
       effort.linear_solves += corrections;
       effort.solves_min = effort.steps == 0 || corrections < effort.solves_min ? corrections : effort.solves_min;
       effort.solves_max = corrections > effort.solves_max ? corrections : effort.solves_max;
@@ -76,27 +78,82 @@ class SegmentLoop {
   }
 
  private:
-  /// @return after how many corrections; 0: not as it mostly goes
+  /// Newton<RecordedElement>::iterate() as it mostly goes. @return after how many corrections; 0: otherwise
   int solved(std::span<double> numbers) const {
-    numbers[frame_.corrections()] = 0;
     NewtonProgress<double> progress(Convergence::quadratic);
     for (int k = 1; k <= most_corrections_; ++k) {
-      if (!correct_->run(numbers, 1)) return 0;
-      const double noise = numbers[frame_.noise()];
-      const NewtonDecision decision =
-          progress.judge(numbers[frame_.size_of_correction()], numbers[frame_.total()], noise);
-      if (decision == NewtonDecision::go_on) continue;
-      const bool is_plain = decision == NewtonDecision::settled && !progress.began_far_away(noise) &&
-                            !(numbers[frame_.hidden()] > 0) && (k > 1 || frame_.m == frame_.n);
-      return is_plain ? k : 0;
+      if (!equations_->run(numbers, 1)) return 0;
+      const Few x = read(numbers, frame_.x());
+      const FewRows tangent = tangent_at(numbers);
+      Few correction = solve(tangent, residual_at(numbers, k > 1));
+      const Correction<double> c = measure(numbers, x, correction);
+      double total = c.size;
+      for (std::size_t i = 0; i < x.size(); ++i) total += std::abs(correction[i]);
+      const NewtonDecision decision = progress.judge(c.size, total, c.noise);
+      if (decision == NewtonDecision::go_on) {
+        for (std::size_t i = 0; i < x.size(); ++i) numbers[frame_.x() + i] = x[i] + correction[i];
+        continue;
+      }
+      if (decision != NewtonDecision::settled || progress.began_far_away(c.noise) ||
+          is_hidden(numbers, x, correction)) {
+        return 0;
+      }
+      if (k == 1 && sharpens()) correction = solve(tangent, residual_at(numbers, true));
+      if (!sharpens()) {
+        const Few more = NaturalElement<P, double>::made_up_for(tangent, read(numbers, frame_.lost()));
+        for (std::size_t i = 0; i < x.size(); ++i) correction[i] += more[i];
+      }
+      for (std::size_t i = 0; i < x.size(); ++i) numbers[frame_.correction() + i] = correction[i];
+      return k;
     }
     return 0;
   }
 
+  /// Whether corrections are solved for the residual without its own rounding; in the plane the end makes up for it.
+  bool sharpens() const { return !(frame_.is_natural() && frame_.n <= 2); }
+  Few residual_at(std::span<const double> numbers, bool sharp) const {
+    Few r = read(numbers, frame_.residual());
+    if (!sharp || !sharpens()) return r;
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      const double lost = numbers[frame_.lost() + i];
+      r[i] = frame_.is_natural() ? r[i] + lost : lost;
+    }
+    return r;
+  }
+  FewRows tangent_at(std::span<const double> numbers) const {
+    FewRows k;
+    k.count = frame_.m;
+    const double* from = &numbers[frame_.tangent()];
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      for (std::size_t j = 0; j < frame_.m; ++j) k[i][j] = *from++;
+    }
+    return k;
+  }
+  Correction<double> measure(std::span<const double> numbers, const Few& x, const Few& correction) const {
+    if (frame_.is_natural()) {
+      return NaturalElement<P, double>::measured(numbers[frame_.flight()], read(numbers, frame_.target()), x,
+                                                 correction);
+    }
+    return GeneralElement<P, double>::measured(read(numbers, frame_.noise()), x, correction);
+  }
+  bool is_hidden(std::span<const double> numbers, const Few& x, const Few& correction) const {
+    const Few target = read(numbers, frame_.target());
+    const double terms = frame_.is_natural()
+                             ? NaturalElement<P, double>::doubted(numbers[frame_.flight()], target, x, correction)
+                             : GeneralElement<P, double>::doubted(target, x, correction);
+    return terms > 0;
+  }
+  Few read(std::span<const double> numbers, std::size_t from) const {
+    Few x;
+    x.count = frame_.m;
+    for (std::size_t i = 0; i < frame_.m; ++i) x[i] = numbers[from + i];
+    return x;
+  }
+
   SegmentFrame frame_;
-  std::shared_ptr<const StepLoop> correct_;
+  std::shared_ptr<const StepLoop> equations_;
   std::shared_ptr<const StepLoop> finish_;
-  Effort of_correction_;
+  Effort work_;
   int most_corrections_;
   std::vector<double> before_;
 };
@@ -119,47 +176,35 @@ class SegmentRecorder {
   /// @return nothing where they are no straight lines, or too long
   std::optional<SegmentLoop> loop(std::span<const double> numbers, const IterationTime& time) const {
     try {
-      Effort of_correction;
-      const Program correct = correction(numbers, time, of_correction);
+      Effort work;
+      const Program at_x = equations(numbers, time, work);
       const std::optional<Program> finish = end_of_step(numbers, time);
       if (!finish) return std::nullopt;
-      return SegmentLoop(frame_, correct, *finish, of_correction, setup_.newton().max_iterations);
+      return SegmentLoop(frame_, at_x, *finish, work, setup_.newton().max_iterations);
     } catch (const CannotRecord&) {
       return std::nullopt;
     }
   }
 
  private:
-  Program correction(std::span<const double> numbers, const IterationTime& time, Effort& effort) const {
+  Program equations(std::span<const double> numbers, const IterationTime& time, Effort& work) const {
     Frame f(watched_, frame_.carried(), numbers, time.start);
     const V q0 = f.z.positions();
     const V p0 = f.z.momenta();
-    const Element e(setup_, problem_, f.numbers[IterationFrame::h], q0, p0, effort);
+    const Element e(setup_, problem_, f.numbers[IterationFrame::h], q0, p0, work);
     const V x = f.read(frame_.x(), frame_.m);
     Point at;
     e.evaluate(x, at);
-    Number& corrections = f.numbers[frame_.corrections()];
-    if constexpr (!natural) {  // the last correction is mostly the second one, or a later one
-      const V sharp = e.lost(x, at);
-      for (std::size_t i = 0; i < x.size(); ++i) at.residual[i] = choose(corrections, sharp[i], at.residual[i]);
-    }
-    const V c = solved(e.tangent(at), at.residual);
-    const auto measured = measure(e, x, at, c);
-    f.numbers[frame_.size_of_correction()] = measured.size;
-    f.numbers[frame_.noise()] = measured.noise;
-    Number total = measured.size;
-    for (const Number& each : c) total += abs(each);
-    f.numbers[frame_.total()] = total;
-    f.numbers[frame_.hidden()] = hidden(e, x, at, c);
-    f.put(x, frame_.from());
-    f.put(c, frame_.correction());
-    for (std::size_t i = 0; i < x.size(); ++i) f.numbers[frame_.x() + i] = x[i] + c[i];
-    corrections += Number(1);
+    f.put(at.residual, frame_.residual());
+    f.put(e.lost(x, at), frame_.lost());
+    put(e.tangent(at), f, frame_.tangent());
+    f.numbers[frame_.flight()] = e.flight();
     f.put(at.sum, frame_.sum());
     f.put(at.target, frame_.target());
-    const auto& matrix = matrix_of(at);
-    for (std::size_t i = 0; i < frame_.m; ++i) {
-      for (std::size_t j = 0; j < frame_.m; ++j) f.numbers[frame_.matrix() + i * frame_.m + j] = matrix[i][j];
+    if constexpr (natural) {
+      put(at.stiffness, f, frame_.stiffness());
+    } else {
+      f.put(at.noise, frame_.noise());
     }
     return program_of(f.recorder.finish(f.numbers));
   }
@@ -170,22 +215,9 @@ class SegmentRecorder {
     const V p0 = f.z.momenta();
     const Number h = f.numbers[IterationFrame::h];
     Effort unused;
-    const Element e(setup_, problem_, h, q0, p0, unused);
-    V x = f.read(frame_.from(), frame_.m);
-    V c = f.read(frame_.correction(), frame_.m);
-    const Point at = point(f, x);
-    if constexpr (natural) {  // as NaturalElement::made_up_for, without its branch
-      const auto k = e.tangent(at);
-      const V lost = e.lost(x, at);
-      const V solution = solved(k, lost);
-      Number from_identity(0);
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        for (std::size_t j = 0; j < x.size(); ++j) from_identity += abs(k[i][j] - Number(i == j ? 1 : 0));
-      }
-      const Number is_near = Number(0.03125) - from_identity;
-      for (std::size_t i = 0; i < x.size(); ++i) c[i] += choose(is_near, lost[i], solution[i]);
-    }
-    const Increment<Number, dynamic> taken = e.corrected(x, at, c);
+    V x = f.read(frame_.x(), frame_.m);
+    const Increment<Number, dynamic> taken =
+        Element(setup_, problem_, h, q0, p0, unused).corrected(x, point(f), f.read(frame_.correction(), frame_.m));
     for (std::size_t i = 0; i < frame_.n; ++i) {
       f.z.arithmetic.position.add_keeping(f.z.q[i], taken.q[i]);
       f.z.arithmetic.momentum.add_keeping(f.z.p[i], taken.p[i]);
@@ -194,83 +226,45 @@ class SegmentRecorder {
     position += Number(time.direction);
     const V q = f.z.positions();
     const V p = f.z.momenta();
-    if (!f.probe.look(watched_, q, p, Number(time.start) + position * (Number(time.direction) * h)))
-      return std::nullopt;
+    const Number t = Number(time.start) + position * (Number(time.direction) * h);
+    if (!f.probe.look(watched_, q, p, t)) return std::nullopt;
     f.put_carried();
-    const V latest = e.memory(x, taken);
-    const V second = f.read(frame_.memory(), frame_.m);
-    const V third = f.read(frame_.memory() + frame_.m, frame_.m);
-    f.put(latest, frame_.memory());
-    f.put(second, frame_.memory() + frame_.m);
-    f.put(third, frame_.memory() + 2 * frame_.m);
     Extrapolation<V> memory;
-    for (const V* each : {&third, &second, &latest}) memory.remember(*each);
-    f.put(Element(setup_, problem_, h, q, p, unused).started(memory.predicted()), frame_.x());
+    for (std::size_t back = 2; back > 0; --back) {
+      const V earlier = f.read(frame_.memory() + (back - 1) * frame_.m, frame_.m);
+      memory.remember(earlier);
+      f.put(earlier, frame_.memory() + back * frame_.m);
+    }
+    const Element next(setup_, problem_, h, q, p, unused);
+    const V latest = next.memory(x, taken);
+    memory.remember(latest);
+    f.put(latest, frame_.memory());
+    f.put(next.started(memory.predicted()), frame_.x());
     return program_of(f.recorder.finish(f.numbers));
   }
 
-  V solved(const Matrix<Number, dynamic>& k, const V& b) const {
-    V x(frame_.m);
-    if (frame_.m == 1) {
-      x[0] = b[0] / k[0][0];
-      return x;
-    }
-    Matrix<Number, 2> matrix{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 0; j < 2; ++j) matrix[i][j] = k[i][j];
-    }
-    const Vector<Number, 2> solution = hamflow::solve(matrix, Vector<Number, 2>{b[0], b[1]});
-    x[0] = solution[0];
-    x[1] = solution[1];
-    return x;
-  }
-  /// As the element measures it, without branches.
-  static Correction<Number> measure(const Element& e, const V& x, const Point& at, const V& c) {
-    if constexpr (natural) {
-      return e.measure(x, at, c);
-    } else {
-      Number distance(0);
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        const Number size = abs(c[i]);
-        const Number unit = Epsilon<Number>{} * Number(at.noise[i] + abs(x[i]));
-        const Number own = Epsilon<Number>{} * size;
-        const Number known = choose(Number(unit - Epsilon<Number>{} * own), unit, own);
-        const Number here = size / larger(known, Number(std::numeric_limits<double>::min()));
-        distance = larger(distance, here);
-      }
-      return {distance, Number(1)};
+  void put(const Matrix<Number, dynamic>& from, Frame& f, std::size_t to) const {
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      for (std::size_t j = 0; j < frame_.m; ++j) f.numbers[to + i * frame_.m + j] = from[i][j];
     }
   }
-  /// Above 0 where hidden_by_rounding() is true.
-  static Number hidden(const Element& e, const V& x, const Point& at, const V& c) {
-    V next = x;
-    for (std::size_t i = 0; i < x.size(); ++i) next[i] += c[i];
-    Number unknown = max_norm(next);
-    if constexpr (natural) unknown = larger(e.flight(), unknown);
-    return Epsilon<Number>{} * max_norm(at.target) - unknown / (1 << 20);
-  }
-  static const auto& matrix_of(const Point& at) {
-    if constexpr (natural) {
-      return at.stiffness;
-    } else {
-      return at.tangent;
+  Matrix<Number, dynamic> read_matrix(const Frame& f, std::size_t from) const {
+    Matrix<Number, dynamic> matrix(frame_.m);
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      for (std::size_t j = 0; j < frame_.m; ++j) matrix[i][j] = f.numbers[from + i * frame_.m + j];
     }
+    return matrix;
   }
-  /// What correction() has left.
-  Point point(const Frame& f, const V& x) const {
+  /// What equations() has left, as far as the end of a step needs it.
+  Point point(const Frame& f) const {
     Point at;
     at.sum = f.read(frame_.sum(), frame_.m);
     at.target = f.read(frame_.target(), frame_.m);
-    at.residual = at.target;
-    for (std::size_t i = 0; i < x.size(); ++i) at.residual[i] = at.target[i] - x[i];
-    Matrix<Number, dynamic> matrix(frame_.m);
-    for (std::size_t i = 0; i < frame_.m; ++i) {
-      for (std::size_t j = 0; j < frame_.m; ++j) matrix[i][j] = f.numbers[frame_.matrix() + i * frame_.m + j];
-    }
+    at.residual = f.read(frame_.residual(), frame_.m);
     if constexpr (natural) {
-      at.stiffness = matrix;
+      at.stiffness = read_matrix(f, frame_.stiffness());
     } else {
-      at.tangent = matrix;
+      at.tangent = read_matrix(f, frame_.tangent());
     }
     return at;
   }
