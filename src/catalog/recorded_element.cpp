@@ -23,17 +23,20 @@ auto recorder(const ErasedFunctions<double>& functions, const CgOptions& options
   };
 }
 
-/// Makes a loop from the numbers of a first step; empty where there can be none.
-using SegmentMaker =
-    std::function<std::optional<SegmentLoop>(const SegmentFrame&, std::span<const double>, const IterationTime&)>;
+/// Makes a loop for so many points from the numbers of a first step; empty where there can be none.
+using SegmentMaker = std::function<std::optional<SegmentLoop>(const SegmentFrame&, std::span<const double>,
+                                                              const IterationTime&, int points)>;
 
 template <Capability c>
 SegmentMaker segment_maker(const ErasedFunctions<double>& functions, const CgOptions& options) {
   using Traced = AnyProblem<Trace<double>, c>;
   using Watched = AnyProblem<Trace<double>, Capability::smooth>;
-  return [=](const SegmentFrame& frame, std::span<const double> numbers, const IterationTime& time) {
+  return [=](const SegmentFrame& frame, std::span<const double> numbers, const IterationTime& time, int points) {
+    CgOptions of_rule = options;
+    of_rule.quadrature = points;
     return SegmentRecorder<includes(c, Capability::quadratic_kinetic), Traced, Watched>(
-               Traced(functions.size, functions.trace), Watched(functions.size, functions.trace), options, frame)
+               Traced(functions.size, functions.trace), Watched(functions.size, functions.trace), of_rule, frame,
+               options.quadrature == 0)
         .loop(numbers, time);
   };
 }
@@ -60,7 +63,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     while (steps > 0) {
       if (!is_worth_running(steps)) return Base::advance(steps);
       if (fill()) {
-        if (!loop_ && !make_loop()) return Base::advance(steps);
+        if ((!loop_ || points_ != points()) && !make_loop()) return Base::advance(steps);
         Effort effort = method_.effort();
         const std::int64_t taken = loop_->run(numbers_, steps, effort);
         if (!std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(frame_.correction()),
@@ -99,10 +102,10 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   /// Steps in a row that the loop did not take.
   static constexpr std::int64_t most_alone = 64;
 
-  /// What is asked of every residual, diagnostics and points that change are not in the programs, nor are steps that
-  /// vary.
+  int points() const { return method_.setup().rule().points; }
+  /// What is asked of every residual and diagnostics are not in the programs, nor are steps that vary.
   bool is_worth_running(std::int64_t steps) {
-    if (!maker_ || steps < few_steps || Base::varies_steps() || method_.setup().automatic()) return false;
+    if (!maker_ || steps < few_steps || Base::varies_steps()) return false;
     const NewtonOptions options = method_.setup().newton();
     if (options.tolerance || options.diagnostics || options.iteration != Iteration::newton) return false;
     return loop_ || (asked_ += steps) >= worth_recording;
@@ -117,10 +120,12 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     std::size_t k = IterationFrame::carried;
     for_each_carried([&](double& x) { numbers_[k++] = x; }, z_, probe_);
     const auto& memory = method_.newton().memory();
+    const auto& problem = Base::problem();
     const Vector<double, dynamic> q0 = z_.positions();
     const Vector<double, dynamic> p0 = z_.momenta();
+    if (method_.setup().automatic()) numbers_[frame_.energy()] = hamflow::energy(problem, q0, p0);
     Effort unused;
-    const Few x = Equations(method_.setup(), Base::problem(), h, q0, p0, unused).started(memory.predicted());
+    const Few x = Equations(method_.setup(), problem, h, q0, p0, unused).started(memory.predicted());
     for (std::size_t i = 0; i < frame_.m; ++i) {
       for (std::size_t back = 0; back < 3; ++back) {
         if (memory.last(back).size() != frame_.m) return false;
@@ -131,7 +136,8 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     return true;
   }
   [[gnu::cold]] bool make_loop() {
-    loop_ = maker_(frame_, numbers_, {clock_.start(), static_cast<double>(clock_.direction())});
+    points_ = points();
+    loop_ = maker_(frame_, numbers_, {clock_.start(), static_cast<double>(clock_.direction())}, points_);
     if (!loop_) maker_ = {};
     return loop_.has_value();
   }
@@ -149,6 +155,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   SegmentFrame frame_;
   SegmentMaker maker_;
   std::optional<SegmentLoop> loop_;
+  int points_ = 0;  // of the loop
   std::vector<double> numbers_;
   std::int64_t asked_ = 0;
 };

@@ -38,20 +38,26 @@ struct SegmentFrame {
   std::size_t target() const { return sum() + m; }
   std::size_t noise() const { return target() + m; }      // of a general element
   std::size_t stiffness() const { return target() + m; }  // of a natural one
-  std::size_t size() const { return target() + m + m * m; }
+  // With quadrature = "auto": H at the state; by how much more than rounding explains the points miss the work done in
+  // the last step, and H has changed.
+  std::size_t energy() const { return target() + m + m * m; }
+  std::size_t missed() const { return energy() + 1; }
+  std::size_t change() const { return missed() + 1; }
+  std::size_t size() const { return change() + 1; }
 };
 
 class SegmentLoop {
   using P = Erased<double, Capability::smooth>;
 
  public:
-  /// @param work of one evaluation of the equations
+  /// @param work of one evaluation of the equations   @param work_of_finish of what judges the points
   SegmentLoop(const SegmentFrame& frame, const Program& equations, const Program& finish, const Effort& work,
-              int most_corrections)
+              const Effort& work_of_finish, int most_corrections)
       : frame_(frame),
         equations_(make_step_loop(equations)),
         finish_(make_step_loop(finish)),
         work_(work),
+        work_of_finish_(work_of_finish),
         most_corrections_(most_corrections),
         before_(frame.correction()) {}
 
@@ -62,13 +68,14 @@ class SegmentLoop {
     for (; taken < steps; ++taken) {
       std::copy_n(numbers.begin(), before_.size(), before_.begin());
       const int corrections = solved(numbers);
-      if (corrections == 0 || !finish_->run(numbers, 1)) {
+      if (corrections == 0 || !finish_->run(numbers, 1) || numbers[frame_.missed()] > 0 ||
+          numbers[frame_.change()] > 0) {
         std::copy(before_.begin(), before_.end(), numbers.begin());
         break;
       }
-      effort.force += corrections * work_.force;
-      effort.gradient += corrections * work_.gradient;
-      effort.hessian += corrections * work_.hessian;
+      effort.force += corrections * work_.force + work_of_finish_.force;
+      effort.gradient += corrections * work_.gradient + work_of_finish_.gradient;
+      effort.hessian += corrections * work_.hessian + work_of_finish_.hessian;
       effort.linear_solves += corrections;
       effort.solves_min = effort.steps == 0 || corrections < effort.solves_min ? corrections : effort.solves_min;
       effort.solves_max = corrections > effort.solves_max ? corrections : effort.solves_max;
@@ -154,6 +161,7 @@ class SegmentLoop {
   std::shared_ptr<const StepLoop> equations_;
   std::shared_ptr<const StepLoop> finish_;
   Effort work_;
+  Effort work_of_finish_;
   int most_corrections_;
   std::vector<double> before_;
 };
@@ -170,17 +178,19 @@ class SegmentRecorder {
   using Frame = detail::TracedFrame<Watched, Compensated<Number>>;
 
  public:
-  SegmentRecorder(const P& problem, const Watched& watched, const CgOptions& options, const SegmentFrame& frame)
-      : problem_(problem), watched_(watched), setup_(problem, options), frame_(frame) {}
+  /// @param options with the points of the present rule   @param judges whether every step judges them
+  SegmentRecorder(const P& problem, const Watched& watched, const CgOptions& options, const SegmentFrame& frame,
+                  bool judges)
+      : problem_(problem), watched_(watched), setup_(problem, options), frame_(frame), judges_(judges) {}
 
   /// @return nothing where they are no straight lines, or too long
   std::optional<SegmentLoop> loop(std::span<const double> numbers, const IterationTime& time) const {
     try {
-      Effort work;
+      Effort work, work_of_finish;
       const Program at_x = equations(numbers, time, work);
-      const std::optional<Program> finish = end_of_step(numbers, time);
+      const std::optional<Program> finish = end_of_step(numbers, time, work_of_finish);
       if (!finish) return std::nullopt;
-      return SegmentLoop(frame_, at_x, *finish, work, setup_.newton().max_iterations);
+      return SegmentLoop(frame_, at_x, *finish, work, work_of_finish, setup_.newton().max_iterations);
     } catch (const CannotRecord&) {
       return std::nullopt;
     }
@@ -209,15 +219,16 @@ class SegmentRecorder {
     return program_of(f.recorder.finish(f.numbers));
   }
 
-  std::optional<Program> end_of_step(std::span<const double> numbers, const IterationTime& time) const {
+  std::optional<Program> end_of_step(std::span<const double> numbers, const IterationTime& time, Effort& work) const {
     Frame f(watched_, frame_.carried(), numbers, time.start);
     const V q0 = f.z.positions();
     const V p0 = f.z.momenta();
     const Number h = f.numbers[IterationFrame::h];
     Effort unused;
     V x = f.read(frame_.x(), frame_.m);
-    const Increment<Number, dynamic> taken =
-        Element(setup_, problem_, h, q0, p0, unused).corrected(x, point(f), f.read(frame_.correction(), frame_.m));
+    const Element e(setup_, problem_, h, q0, p0, work);
+    const Increment<Number, dynamic> taken = e.corrected(x, point(f), f.read(frame_.correction(), frame_.m));
+    if (judges_) f.numbers[frame_.missed()] = abs(e.finer_work(taken).gain) - e.rounding_of_work(taken);
     for (std::size_t i = 0; i < frame_.n; ++i) {
       f.z.arithmetic.position.add_keeping(f.z.q[i], taken.q[i]);
       f.z.arithmetic.momentum.add_keeping(f.z.p[i], taken.p[i]);
@@ -228,6 +239,12 @@ class SegmentRecorder {
     const V p = f.z.momenta();
     const Number t = Number(time.start) + position * (Number(time.direction) * h);
     if (!f.probe.look(watched_, q, p, t)) return std::nullopt;
+    if (judges_) {
+      const Number before = f.numbers[frame_.energy()];
+      const Number behind = hamflow::energy(watched_, q, p);
+      f.numbers[frame_.energy()] = behind;
+      f.numbers[frame_.change()] = abs(behind - before) - detail::explained_change(before, h, q0, p0, taken.q, taken.p);
+    }
     f.put_carried();
     Extrapolation<V> memory;
     for (std::size_t back = 2; back > 0; --back) {
@@ -273,6 +290,7 @@ class SegmentRecorder {
   Watched watched_;
   typename Element::Setup setup_;
   SegmentFrame frame_;
+  bool judges_;
 };
 
 }  // namespace hamflow
