@@ -225,7 +225,6 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   Group& group = at->second;
   if (is_new) {
     arithmetics_.insert(request.arithmetic);
-    kernels_.insert(request.kernel);
     beyond_double_ = beyond_double_ || digits_beyond_double(request.arithmetic) > 0;
     halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
     group.request = request;

@@ -187,7 +187,6 @@ std::string text_of(const Request& request, std::int64_t steps) {
   for (const auto& [key, value] : request.method.options) lines.add("option." + key, value);
   lines.add("dt", request.dt);
   lines.add("arithmetic", request.arithmetic);
-  lines.add("kernel", request.kernel);
   lines.add("threads", static_cast<long long>(request.threads));
   lines.add("steps", static_cast<long long>(steps));
   return lines.text();
