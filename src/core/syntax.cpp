@@ -25,18 +25,18 @@ std::string refused_formula_name(const std::string& name) {
   return word ? "" : "the name \"" + shown(name) + "\", which is no word of letters, digits and _";
 }
 
-std::string Syntax::shown_part(const Part& part) const {
+std::string Syntax::shown_part(const SyntaxPart& part) const {
   return shown(trimmed(text.substr(part.begin, part.end - part.begin)));
 }
 
-void Syntax::refuse_division_by_zero(const Part& division) const {
+void Syntax::refuse_division_by_zero(const SyntaxPart& division) const {
   const std::string divisor = shown_part((*this)[division.b]);
   refuse_at(text, division.at,
             shown_part((*this)[division.a]) + " divided by " + divisor + (divisor == "0" ? "" : ", which is 0"),
             "a divisor other than 0");
 }
 
-void Syntax::refuse_value(const Part& part, bool infinite) const {
+void Syntax::refuse_value(const SyntaxPart& part, bool infinite) const {
   refuse_at(text, part.at, shown_part(part) + (infinite ? " is infinite or too large" : " is not a real number"),
             "finite real numbers");
 }
@@ -136,7 +136,7 @@ class SyntaxReader {
     at_ = before;
     return false;
   }
-  int add(Part part) {
+  int add(SyntaxPart part) {
     if (syntax_.parts.size() > 2 * rules_.operations) {
       const std::string most = power_of_ten(rules_.operations);
       refuse(part.at, "more than " + most + " operations", "at most " + most);
@@ -147,8 +147,13 @@ class SyntaxReader {
   std::size_t end_of(int part) const { return syntax_[part].end; }
   std::size_t begin_of(int part) const { return syntax_[part].begin; }
   int binary(Operation op, std::size_t sign, int x, int y) {
-    return add(
-        {.kind = Part::Kind::operation, .op = op, .a = x, .b = y, .at = sign, .begin = begin_of(x), .end = end_of(y)});
+    return add({.kind = SyntaxPart::Kind::operation,
+                .op = op,
+                .a = x,
+                .b = y,
+                .at = sign,
+                .begin = begin_of(x),
+                .end = end_of(y)});
   }
 
   /// Counts what is nested while it stands.
@@ -192,7 +197,7 @@ class SyntaxReader {
         refuse(at_, "the end before the 'in' of let " + std::string(name), "let name = ... in ...");
       fail_after_operand("'in'");
     }
-    return add({.kind = Part::Kind::let,
+    return add({.kind = SyntaxPart::Kind::let,
                 .word = name,
                 .a = value,
                 .b = body,
@@ -250,7 +255,7 @@ class SyntaxReader {
     const std::size_t sign = at_;
     if (take("-")) {
       const int x = unary();
-      return add({.kind = Part::Kind::operation,
+      return add({.kind = SyntaxPart::Kind::operation,
                   .op = Operation::negate,
                   .a = x,
                   .at = sign,
@@ -286,7 +291,8 @@ class SyntaxReader {
     if (is_digit(here()) || here() == '.') return literal();
     const std::string_view name = word();
     if (name.empty()) fail_before_operand();
-    if (name == "pi" || name == "Pi") return add({.kind = Part::Kind::pi, .at = begin, .begin = begin, .end = at_});
+    if (name == "pi" || name == "Pi")
+      return add({.kind = SyntaxPart::Kind::pi, .at = begin, .begin = begin, .end = at_});
     skip_space();
     if (rules_.only_numbers && find_function(name) == nullptr && here() != '(') fail_at_name(name, begin);
     if (rules_.only_numbers && find_function(name) == nullptr) fail_at_function(name, begin);
@@ -302,8 +308,11 @@ class SyntaxReader {
   /// From a word on: its indices, and what follows them. @param end of the word
   int name_parts(std::size_t begin, std::size_t end) {
     const Level level(*this);
-    Part part{
-        .kind = Part::Kind::name, .word = text().substr(begin, end - begin), .at = begin, .begin = begin, .end = end};
+    SyntaxPart part{.kind = SyntaxPart::Kind::name,
+                    .word = text().substr(begin, end - begin),
+                    .at = begin,
+                    .begin = begin,
+                    .end = end};
     at_ = end;
     skip_space();
     if (here() != '[') {
@@ -349,7 +358,7 @@ class SyntaxReader {
     const std::string usual = word + (two ? "(y, x)" : "(x)");
     if (here() != '(') refuse(begin, "the function " + word + " without parentheses", usual);
     const std::size_t opened = at_++;
-    Part part{.kind = Part::Kind::operation, .op = function, .at = begin, .begin = begin};
+    SyntaxPart part{.kind = SyntaxPart::Kind::operation, .op = function, .at = begin, .begin = begin};
     part.a = expression();
     skip_space();
     if (two) {
@@ -367,7 +376,7 @@ class SyntaxReader {
     if (here() != '(') refuse(begin, "sum without parentheses", usual);
     const std::size_t opened = at_++;
     skip_space();
-    Part part{.kind = Part::Kind::sum, .at = begin, .begin = begin};
+    SyntaxPart part{.kind = SyntaxPart::Kind::sum, .at = begin, .begin = begin};
     part.word = new_name("in sum");
     int* const operand[]{&part.a, &part.b, &part.c};
     for (int k = 0; k < 3; ++k) {
@@ -403,7 +412,7 @@ class SyntaxReader {
       }
     }
     const std::string_view number = text().substr(begin, at_ - begin);
-    return add({.kind = Part::Kind::number, .word = number, .at = begin, .begin = begin, .end = at_});
+    return add({.kind = SyntaxPart::Kind::number, .word = number, .at = begin, .begin = begin, .end = at_});
   }
 
   const SyntaxRules& rules_;

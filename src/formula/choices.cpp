@@ -193,13 +193,13 @@ FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& p
   texts.hamiltonian = hamiltonian;
   texts.parameters = parameters;
   std::set<std::string> locals;
-  for (const Part& part : syntax.parts) {
-    if (part.kind == Part::Kind::let || part.kind == Part::Kind::sum) locals.emplace(part.word);
+  for (const SyntaxPart& part : syntax.parts) {
+    if (part.kind == SyntaxPart::Kind::let || part.kind == SyntaxPart::Kind::sum) locals.emplace(part.word);
   }
   // In the order of the text; an operand stands before what is made of it.
   std::vector<std::pair<std::size_t, std::string>> words;
-  for (const Part& part : syntax.parts) {
-    if (part.kind == Part::Kind::name && !locals.contains(std::string(part.word))) {
+  for (const SyntaxPart& part : syntax.parts) {
+    if (part.kind == SyntaxPart::Kind::name && !locals.contains(std::string(part.word))) {
       words.emplace_back(part.at, std::string(part.word));
     }
   }

@@ -33,7 +33,7 @@ class Meaning {
   int read() { return node_of(syntax_.root); }
 
  private:
-  using Kind = Part::Kind;
+  using Kind = SyntaxPart::Kind;
 
   [[noreturn]] void refuse(std::size_t at, const std::string& what, const std::string& allowed,
                            const std::string& meant = "") const {
@@ -50,14 +50,14 @@ class Meaning {
     }
     int node = single(part);
     for (; !chain.empty(); chain.pop_back()) {
-      const Part& p = syntax_[chain.back()];
+      const SyntaxPart& p = syntax_[chain.back()];
       node = operation(p, node, node_of(p.b));
     }
     return node;
   }
 
   int single(int i) {
-    const Part& part = syntax_[i];
+    const SyntaxPart& part = syntax_[i];
     switch (part.kind) {
       case Kind::number:
         return checked(part, graph_.number(part.word), std::strtold(std::string(part.word).c_str(), nullptr));
@@ -79,7 +79,7 @@ class Meaning {
     }
     return -1;
   }
-  void refuse_second(const Part& part) const {
+  void refuse_second(const SyntaxPart& part) const {
     for (const Local& local : locals_) {
       if (local.word == part.word) {
         refuse(part.at, "the name " + std::string(part.word) + " within its own let or sum", "another name");
@@ -93,14 +93,14 @@ class Meaning {
     if (values_.size() <= static_cast<std::size_t>(node)) values_.resize(static_cast<std::size_t>(node) + 1);
     return values_[static_cast<std::size_t>(node)];
   }
-  int checked(const Part& part, int node, long double value) {
+  int checked(const SyntaxPart& part, int node, long double value) {
     if (!(std::abs(value) <= static_cast<long double>(DBL_MAX))) {
       syntax_.refuse_value(part, value == value);
     }
     value_of(node) = value;
     return node;
   }
-  int operation(const Part& part, int a, int b) {
+  int operation(const SyntaxPart& part, int a, int b) {
     if (++terms_ > FormulaLimits::terms)
       refuse(part.at, "more than 300000 operations", "at most 300000, all terms of sums counted");
     const int node = graph_.node(part.op, a, b);
@@ -114,7 +114,7 @@ class Meaning {
 
   // ---- sums and indices ----
 
-  int sum(const Part& part) {
+  int sum(const SyntaxPart& part) {
     refuse_second(part);
     const std::int64_t first = whole(part.a, "a limit of a sum");
     const std::int64_t last = whole(part.b, "a limit of a sum");
@@ -151,7 +151,7 @@ class Meaning {
   /// The value of a whole expression of indices, numbers and parameters.
   std::int64_t whole(int i, const char* where, int depth = 0) const {
     constexpr std::int64_t most = std::int64_t{1} << 53;
-    const Part& part = syntax_[i];
+    const SyntaxPart& part = syntax_[i];
     if (depth > deepest_expression) refuse(part.at, "more than 200 operations in " + std::string(where), "at most 200");
     std::int64_t value = 0;
     bool lost = false;
@@ -205,10 +205,10 @@ class Meaning {
     if (lost || value > most || value < -most) refuse_whole(part, "beyond 2^53");
     return value;
   }
-  [[noreturn]] void refuse_whole(const Part& part, const char* what) const {
+  [[noreturn]] void refuse_whole(const SyntaxPart& part, const char* what) const {
     refuse(part.at, syntax_.shown_part(part) + ", which is " + what, "whole numbers from -2^53 to 2^53");
   }
-  std::int64_t whole_name(const Part& part, const char* where) const {
+  std::int64_t whole_name(const SyntaxPart& part, const char* where) const {
     const std::string name = full_name(part);
     for (const Local& local : locals_) {
       if (local.word != name) continue;
@@ -235,12 +235,12 @@ class Meaning {
 
   // ---- names ----
 
-  std::string full_name(const Part& part) const {
+  std::string full_name(const SyntaxPart& part) const {
     std::string name(part.word);
     if (part.a >= 0) name += "[" + std::to_string(whole(part.a, "an index")) + "]";
     return part.b < 0 ? name : name + full_name(syntax_[part.b]);
   }
-  int named(const Part& part) {
+  int named(const SyntaxPart& part) {
     if (part.a < 0) {
       for (Local& local : locals_) {
         if (local.word != part.word) continue;
@@ -261,7 +261,7 @@ class Meaning {
                                     [&](const std::string& other) { return other.starts_with(name + "_"); });
     return first == symbols_.names.end() ? std::string() : *first;
   }
-  [[noreturn]] void refuse_name(const Part& part, const std::string& name) const {
+  [[noreturn]] void refuse_name(const SyntaxPart& part, const std::string& name) const {
     // A list without its index, or an index beyond it.
     const std::string word(part.word);
     const auto is_entry = [&](const std::string& other) {

@@ -16,21 +16,21 @@ namespace hamflow {
 namespace {
 
 /// A name, or an index of an array.
-struct PathPart {
+struct Part {
   std::string name;
   std::size_t index = 0;
   bool is_index = false;
 };
 
 /// The parts of a path; empty where it is none.
-std::vector<PathPart> parts_of(const std::string& path) {
-  std::vector<PathPart> parts;
+std::vector<Part> parts_of(const std::string& path) {
+  std::vector<Part> parts;
   std::size_t at = 0;
   while (at < path.size()) {
     if (path[at] == '[') {
       const std::size_t close = path.find(']', at);
       if (parts.empty() || close == std::string::npos) return {};
-      PathPart part{"", 0, true};
+      Part part{"", 0, true};
       const char* const end = path.data() + close;
       const auto read = std::from_chars(path.data() + at + 1, end, part.index);
       if (read.ec != std::errc() || read.ptr != end) return {};
@@ -54,11 +54,11 @@ struct Place {
   std::string wrong{};
 };
 
-Place walk(toml::table& root, const std::vector<PathPart>& parts, bool make_tables) {
+Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) {
   toml::node* at = &root;
   std::string walked;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const PathPart& part = parts[i];
+    const Part& part = parts[i];
     const bool last = i + 1 == parts.size();
     if (part.is_index) {
       const toml::array* const array = at->as_array();
@@ -158,7 +158,7 @@ toml::table parsed_value(const std::string& text) {
 }
 
 std::string assign(toml::table& root, const std::string& path, const toml::node& value) {
-  const std::vector<PathPart> parts = parts_of(path);
+  const std::vector<Part> parts = parts_of(path);
   if (parts.empty()) return "found no path; allowed names with dots between, and [0], [1], ... for entries of an array";
   if (parts.size() > most_key_parts) {
     return "found a path of " + std::to_string(parts.size()) + " parts; allowed at most " +
@@ -166,7 +166,7 @@ std::string assign(toml::table& root, const std::string& path, const toml::node&
   }
   Place place = walk(root, parts, true);
   if (!place.wrong.empty()) return place.wrong;
-  const PathPart& last = parts.back();
+  const Part& last = parts.back();
   if (last.is_index) {
     toml::array& array = *place.parent->as_array();
     array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(last.index), value);
@@ -177,11 +177,11 @@ std::string assign(toml::table& root, const std::string& path, const toml::node&
 }
 
 void erase(toml::table& root, const std::string& path) {
-  const std::vector<PathPart> parts = parts_of(path);
+  const std::vector<Part> parts = parts_of(path);
   if (parts.empty()) return;
   const Place place = walk(root, parts, false);
   if (!place.wrong.empty()) return;
-  const PathPart& last = parts.back();
+  const Part& last = parts.back();
   if (last.is_index) {
     toml::array& array = *place.parent->as_array();
     array.erase(array.cbegin() + static_cast<std::ptrdiff_t>(last.index));
@@ -191,8 +191,8 @@ void erase(toml::table& root, const std::string& path) {
 }
 
 bool is_part_of_other(const std::string& a, const std::string& b) {
-  const std::vector<PathPart> x = parts_of(a);
-  const std::vector<PathPart> y = parts_of(b);
+  const std::vector<Part> x = parts_of(a);
+  const std::vector<Part> y = parts_of(b);
   const std::size_t common = std::min(x.size(), y.size());
   for (std::size_t i = 0; i < common; ++i) {
     if (x[i].is_index != y[i].is_index || x[i].index != y[i].index || x[i].name != y[i].name) return false;

@@ -61,10 +61,10 @@ R evaluate_number(std::string_view text) {
   }
   const Syntax syntax = read_syntax(text, {.only_numbers = true, .characters = 1'000'000, .operations = 10'000});
   std::vector<R> stack;
-  for (const Part& part : syntax.parts) {
-    if (part.kind == Part::Kind::number) {
+  for (const SyntaxPart& part : syntax.parts) {
+    if (part.kind == SyntaxPart::Kind::number) {
       stack.push_back(parse_decimal<R>(part.word));
-    } else if (part.kind == Part::Kind::pi) {
+    } else if (part.kind == SyntaxPart::Kind::pi) {
       stack.push_back(pi_value<R>());
     } else {
       R second{};

@@ -14,7 +14,7 @@ namespace hamflow {
 
 /// One construct; `a`, `b`, `c` are others, by their places in Syntax::parts. An operand stands before what is made of
 /// it.
-struct Part {
+struct SyntaxPart {
   enum class Kind {
     number,
     pi,
@@ -36,15 +36,15 @@ struct Part {
 
 struct Syntax {
   std::string_view text;
-  std::vector<Part> parts{};
+  std::vector<SyntaxPart> parts{};
   int root = -1;
 
-  const Part& operator[](int i) const { return parts[static_cast<std::size_t>(i)]; }
-  std::string shown_part(const Part& part) const;
+  const SyntaxPart& operator[](int i) const { return parts[static_cast<std::size_t>(i)]; }
+  std::string shown_part(const SyntaxPart& part) const;
   /// @throws Error always: the operand b of a division is 0
-  [[noreturn]] void refuse_division_by_zero(const Part& division) const;
+  [[noreturn]] void refuse_division_by_zero(const SyntaxPart& division) const;
   /// @throws Error always: a value is infinite, or not a number
-  [[noreturn]] void refuse_value(const Part& part, bool infinite) const;
+  [[noreturn]] void refuse_value(const SyntaxPart& part, bool infinite) const;
 };
 
 /// What a text may hold.

@@ -23,8 +23,7 @@ enum class NewtonDecision {
   not_finite  // no solution can be reached from here
 };
 
-/// Every function is inlined, also into what is cold: an object whose address is needed anywhere does not stay in
-/// registers, which costs a step of cg a fifth.
+/// Its functions are inlined always, so that its numbers can stay in registers.
 template <class Real>
 class NewtonProgress {
  public:
