@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/measured_request.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation.hpp"
@@ -129,6 +130,35 @@ TEST(IterationRunner, RecordedCorrectionsHaveTheBitsOfCallsForEach) {
     for (const Case* of : {&ellipse, &bodies, &pendulum, &rods}) {
       expect_same_bits(*of, method, !(is_long && of == &bodies));
     }
+  }
+}
+
+Case typed(const std::string& hamiltonian, std::vector<std::string> coordinates, std::vector<std::string> q,
+           std::vector<std::string> p, const std::string& dt) {
+  return {FormulaKeys::problem,
+          formula_choices(FormulaTexts{.coordinates = std::move(coordinates), .hamiltonian = hamiltonian}),
+          {},
+          std::move(q),
+          std::move(p),
+          dt};
+}
+
+/// Elements of degree 1 of one, two and three coordinates, with H = T + V and without; of orbits so eccentric that
+/// steps leave the loop.
+TEST(SegmentLoop, HasTheBitsOfStepsOneByOne) {
+  const std::string kepler = "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)";
+  const Case cases[] = {
+      typed(kepler, {"x", "y"}, {"0.4", "0"}, {"0", "2"}, "0.1"),
+      typed(kepler, {"x", "y"}, {"1", "0"}, {"0", "0.3"}, "0.02"),
+      typed("p^2/2 - cos(q)", {"q"}, {"1.5"}, {"0.3"}, "0.2"),
+      typed("(p_x^2 + 2*p_y^2 + p_z^2)/2 + x^4/4 + x*y*z + exp(y) - y + z^2", {"x", "y", "z"}, {"0.3", "0.2", "-0.1"},
+            {"0.1", "0", "0.2"}, "0.05"),
+      typed("p^2*(1 + q^2)/2 + q^4/4", {"q"}, {"0.7"}, {"0.2"}, "0.1"),
+      typed("p_x^2/(2 + y^2) + p_y^2/2 + x^4/4 + y^2/2 + x*p_y/10", {"x", "y"}, {"0.5", "0.3"}, {"0", "0.4"}, "0.1"),
+      typed("p_x^2/(2 + y^2) + p_y^2/2 + p_z^2/2 + x^4/4 + y^2/2 + z^2*x^2 + x*p_z/10", {"x", "y", "z"},
+            {"0.5", "0.3", "0.1"}, {"0", "0.4", "0"}, "0.05")};
+  for (const Case& of : cases) {
+    for (const char* method : {"cg(1,1)", "cg(1,5)", "cg", "cg(1,4,on_divergence=halve)"}) expect_same_bits(of, method);
   }
 }
 
