@@ -111,7 +111,7 @@ template <class T>
       const double noise =
           epsilon * (std::max(std::fabs(target.x), std::fabs(target.y)) + std::max(std::fabs(d.x), std::fabs(d.y)));
       if (!(size <= std::numeric_limits<double>::max())) return -1;
-      // newton_at_rounding of hamflow: the rate of decrease is size/previous, and rate^2 size what the next correction
+      // NewtonProgress of hamflow: the rate of decrease is size/previous, and rate^2 size what the next correction
       // will come to.
       stalls = pass > 0 && size > 0.9 * previous ? stalls + 1 : 0;
       if (size <= noise || (pass > 0 && size * size * size <= noise / 16384 * (previous * previous)) ||

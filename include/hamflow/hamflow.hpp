@@ -173,6 +173,7 @@
 #include "hamflow/numerics/legendre.hpp"
 #include "hamflow/numerics/lobatto.hpp"
 #include "hamflow/numerics/lu_factors.hpp"
+#include "hamflow/numerics/newton_progress.hpp"
 #include "hamflow/numerics/normal_modes.hpp"
 #include "hamflow/numerics/outer_root.hpp"
 #include "hamflow/numerics/program.hpp"

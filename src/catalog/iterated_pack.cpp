@@ -7,8 +7,6 @@
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 void add(Effort& sum, const Effort& part, int times) {
   sum.force += times * part.force;
   sum.gradient += times * part.gradient;
@@ -53,7 +51,7 @@ void IteratedPack::start() {
   ends_.resize((at_.m + 4 * at_.n) * width_);
   sizes_.resize(width_);
   totals_.resize(width_);
-  course_.resize(width_);
+  progress_.resize(width_);
   places_.assign(width_, Place::gone);
   std::fill_n(places_.begin(), lanes_.size(), Place::in_lane);
   failed_ = std::make_unique<bool[]>(width_);
@@ -84,85 +82,53 @@ void IteratedPack::take_step() {
 
 /// The ends of the step, of all lanes that stay.
 void IteratedPack::solve() {
-  for (std::size_t lane = 0; lane < width_; ++lane) course_[lane] = {.settled = !is_here(lane)};
+  for (std::size_t lane = 0; lane < width_; ++lane) {
+    progress_[lane] = {NewtonProgress<double>(convergence_of(options_->iteration)), 0, !is_here(lane)};
+  }
   const auto all_settled = [&] {
-    return std::all_of(course_.begin(), course_.end(), [](const Course& one) { return one.settled; });
+    return std::all_of(progress_.begin(), progress_.end(), [](const LaneProgress& one) { return one.settled; });
   };
   int k = 0;
   for (; k < options_->max_iterations && !all_settled(); ++k) {
     std::fill_n(failed_.get(), width_, false);
     family_->correct().run(carried_, constants_of_correct_, {failed_.get(), width_});
-    measure();
+    measure_corrections(&number(at_.correction(), 0), &number(at_.unit(), 0), at_.m, width_, sizes_.data(),
+                        totals_.data());
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-      if (!course_[lane].settled) judge(lane, k);
+      if (!progress_[lane].settled) judge(lane);
     }
     if (all_settled()) continue;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-      if (is_here(lane) && course_[lane].settled && course_[lane].solves == k + 1) keep_end(lane);
+      if (is_here(lane) && progress_[lane].settled && progress_[lane].solves == k + 1) keep_end(lane);
     }
   }
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
     if (!is_here(lane)) continue;
-    if (!course_[lane].settled) {
+    if (!progress_[lane].settled) {
       leave(lane, carried_);
-    } else if (course_[lane].solves < k) {
+    } else if (progress_[lane].solves < k) {
       take_end(lane);
     }
   }
 }
 
-/// The corrections in units of what rounding makes of them, as in_units_of_noise (averages_rows.hpp), and the sum that
-/// is not finite where one of them is not.
-void IteratedPack::measure() {
-  double* const sizes = sizes_.data();
-  double* const totals = totals_.data();
-  std::fill_n(sizes, width_, 0.0);
-  for (std::size_t i = 0; i < at_.m; ++i) {
-    const double* const correction = &number(at_.correction() + i, 0);
-    const double* const units = &number(at_.unit() + i, 0);
-    for (std::size_t lane = 0; lane < width_; ++lane) {
-      const double size = std::abs(correction[lane]);
-      const double own = epsilon * size;
-      const double unit = !(units[lane] > epsilon * own) ? own : units[lane];
-      const double here = size / larger(unit, std::numeric_limits<double>::min());
-      sizes[lane] = here <= sizes[lane] ? sizes[lane] : here;
-    }
-  }
-  std::copy_n(sizes, width_, totals);
-  for (std::size_t i = 0; i < at_.m; ++i) {
-    const double* const correction = &number(at_.correction() + i, 0);
-    for (std::size_t lane = 0; lane < width_; ++lane) totals[lane] += std::abs(correction[lane]);
-  }
-}
-
-/// What Newton decides after the k-th correction (newton.hpp).
-void IteratedPack::judge(std::size_t lane, int k) {
-  Course& course = course_[lane];
-  if (failed_[lane] || !(totals_[lane] <= std::numeric_limits<double>::max())) return leave(lane, carried_);
-  ++course.solves;
-  const double size = sizes_[lane];
-  if (k == 0) course.first = size;
-  course.settled = options_->iteration == Iteration::newton
-                       ? newton_at_rounding(size, course.previous, k == 0, 1.0, course.stalls)
-                       : linear_at_rounding(size, course.previous, k == 0, 1.0, course.least, course.stalls);
-  course.previous = size;
-  if (!course.settled && have_stalled(options_->iteration, course.stalls)) {
-    return leave(lane, carried_);  // to a closer look
-  }
-  if (!course.settled) return;
-  const bool far = epsilon * course.first > 1;  // the guess was
-  if (far || (options_->iteration == Iteration::newton && is_hidden(lane))) leave(lane, carried_);
+/// Decides about the correction of one lane.
+void IteratedPack::judge(std::size_t lane) {
+  LaneProgress& of_lane = progress_[lane];
+  const NewtonDecision decision = of_lane.progress.judge(sizes_[lane], totals_[lane], 1.0);
+  if (failed_[lane] || decision == NewtonDecision::not_finite) return leave(lane, carried_);
+  ++of_lane.solves;
+  if (decision == NewtonDecision::go_on) return;
+  of_lane.settled = true;
+  // A step that stalls, that began far from its solution, or whose unknowns rounding hides, is looked at more closely.
+  const bool is_plain = decision == NewtonDecision::settled && !of_lane.progress.began_far_away(1.0) &&
+                        !(options_->iteration == Iteration::newton && is_hidden(lane));
+  if (!is_plain) leave(lane, carried_);
 }
 
 /// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
 bool IteratedPack::is_hidden(std::size_t lane) const {
-  double unit = 0;
-  double unknown = 0;
-  for (std::size_t i = 0; i < at_.m; ++i) {
-    unit = larger(unit, number(at_.unit() + i, lane));
-    unknown = larger(unknown, std::abs(number(at_.x() + i, lane)));
-  }
-  return hidden_by_rounding(unit, unknown);
+  return hidden_by_rounding(&carried_[at_.unit() * width_ + lane], &carried_[at_.x() * width_ + lane], at_.m, width_);
 }
 
 /// The lane waits for others.
@@ -190,14 +156,14 @@ void IteratedPack::rest(std::size_t lane) {
 void IteratedPack::leave(std::size_t lane, const LaneNumbers& at) {
   for (std::size_t k = 0; k * width_ < at.size(); ++k) lanes_[lane].frame[k] = at[k * width_ + lane];
   places_[lane] = Place::outside;
-  course_[lane].settled = true;
+  progress_[lane].settled = true;
   rest(lane);
 }
 
 /// The work of a step that was taken, as ImplicitMethod counts it.
 void IteratedPack::count(std::size_t lane) {
   Effort& effort = *lanes_[lane].effort;
-  const int solves = course_[lane].solves;
+  const int solves = progress_[lane].solves;
   add(effort, family_->recorded().of_correct, solves);
   add(effort, family_->recorded().of_finish, 1);
   effort.linear_solves += solves;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "hamflow/numerics/newton_progress.hpp"
 #include "iterated_family.hpp"
 
 namespace hamflow {
@@ -31,11 +32,8 @@ class IteratedPack {
 
  private:
   /// The iteration of one lane.
-  struct Course {
-    double previous = 0;  // size of the correction before
-    double first = 0;
-    double least = 0;
-    int stalls = 0;
+  struct LaneProgress {
+    NewtonProgress<double> progress{};
     int solves = 0;
     bool settled = false;
   };
@@ -45,8 +43,7 @@ class IteratedPack {
   void start();
   void take_step();
   void solve();
-  void measure();
-  void judge(std::size_t lane, int k);
+  void judge(std::size_t lane);
   bool is_hidden(std::size_t lane) const;
   void keep_end(std::size_t lane);
   void take_end(std::size_t lane);
@@ -72,7 +69,7 @@ class IteratedPack {
   LaneNumbers ends_;    // of lanes that wait for others: end and increment, then the state
   LaneNumbers sizes_;   // of the last corrections
   LaneNumbers totals_;
-  std::vector<Course> course_;
+  std::vector<LaneProgress> progress_;
   std::vector<Place> places_;
   std::unique_ptr<bool[]> failed_;
   std::int64_t taken_ = 0;

@@ -6,11 +6,6 @@
 
 namespace hamflow {
 
-namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int good_guesses_wanted = 3;  // Newton<E>
-}  // namespace
-
 IterationRunner::IterationRunner(RecordedIteration recorded, const NewtonOptions& options,
                                  std::optional<StagesInLanes> stages)
     : recorded_(std::move(recorded)),
@@ -62,29 +57,20 @@ int IterationRunner::solved(std::span<double> frame, int& doubt) {
     if (doubt == 0) std::copy_n(frame.begin() + static_cast<std::ptrdiff_t>(at.x()), at.m, start_.begin());
     stages_->begin(frame[IterationFrame::h], q_, p_, start_);
   }
-  double previous = 0;
-  double first = 0;
-  double least = 0;
-  int stalls = 0;
+  NewtonProgress<double> progress(convergence_of(options_.iteration));
   for (int k = 0; k < options_.max_iterations; ++k) {
     if (!correct(frame)) return 0;
-    const double size = size_of_correction(frame);
-    if (!(size <= std::numeric_limits<double>::max())) return 0;
-    if (k == 0) first = size;
-    const bool settled = options_.iteration == Iteration::newton
-                             ? newton_at_rounding(size, previous, k == 0, 1.0, stalls)
-                             : linear_at_rounding(size, previous, k == 0, 1.0, least, stalls);
-    previous = size;
-    if (!settled && have_stalled(options_.iteration, stalls)) return 0;  // to a closer look
-    if (!settled) continue;
+    const NewtonDecision decision = judge(frame, progress);
+    if (decision == NewtonDecision::go_on) continue;
+    if (decision != NewtonDecision::settled) return 0;  // to a closer look
     if (!stages_ && options_.iteration == Iteration::newton && is_hidden(frame)) return 0;
-    const bool missed = doubt == 0 && epsilon * first > 1;  // the guess was far away
+    const bool missed = doubt == 0 && progress.began_far_away(1.0);
     if ((missed && !stages_) || !end(frame)) return 0;
     if (missed) {
       doubt = good_guesses_wanted;
     } else if (doubt > 0) {  // whether the guess would have been better
-      const bool good = epsilon * stages_->distance_of(frame.subspan(at.x(), at.m)) <= 1;
-      doubt = good ? doubt - 1 : good_guesses_wanted;
+      const double distance = stages_->distance_of(frame.subspan(at.x(), at.m));
+      doubt = good_guesses_wanted_after(doubt, std::numeric_limits<double>::epsilon() * distance <= 1);
     }
     return k + 1;
   }
@@ -103,32 +89,18 @@ bool IterationRunner::end(std::span<double> frame) {
   return stages_->end(frame.subspan(at.end(), at.m), increment.first(at.n), increment.last(at.n), next_);
 }
 
-double IterationRunner::size_of_correction(std::span<const double> frame) const {
-  if (stages_) return stages_->size();
+NewtonDecision IterationRunner::judge(std::span<const double> frame, NewtonProgress<double>& progress) const {
+  if (stages_) return progress.judge(stages_->size(), stages_->size(), 1.0);
   const IterationFrame& at = recorded_.frame;
   double size = 0;
   double total = 0;
-  for (std::size_t i = 0; i < at.m; ++i) {  // detail::in_units_of_noise
-    const double length = std::abs(frame[at.correction() + i]);
-    const double own = epsilon * length;
-    const double unit = !(frame[at.unit() + i] > epsilon * own) ? own : frame[at.unit() + i];
-    const double here = length / larger(unit, std::numeric_limits<double>::min());
-    size = here <= size ? size : here;
-    total += length;
-  }
-  return size + total <= std::numeric_limits<double>::max() ? size : std::numeric_limits<double>::infinity();
+  measure_corrections(&frame[at.correction()], &frame[at.unit()], at.m, 1, &size, &total);
+  return progress.judge(size, total, 1.0);
 }
 
-/// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
 bool IterationRunner::is_hidden(std::span<const double> frame) const {
   const IterationFrame& at = recorded_.frame;
-  double unit = 0;
-  double unknown = 0;
-  for (std::size_t i = 0; i < at.m; ++i) {
-    unit = larger(unit, frame[at.unit() + i]);
-    unknown = larger(unknown, std::abs(frame[at.x() + i]));
-  }
-  return hidden_by_rounding(unit, unknown);
+  return hidden_by_rounding(&frame[at.unit()], &frame[at.x()], at.m, 1);
 }
 
 }  // namespace hamflow

@@ -28,13 +28,6 @@ struct OfLane {
   std::size_t lane;
 };
 
-/// detail::in_units_of_noise of one number.
-double in_units(double size, double unit) {
-  const double own = epsilon * size;
-  const double known = !(unit > epsilon * own) ? own : unit;
-  return size / larger(known, std::numeric_limits<double>::min());
-}
-
 /// The program in which the values behind the first `values` are those of one lane.
 Program with_lanes(const Program& program, std::size_t values, std::span<const OfLane> from) {
   Program all;
@@ -268,8 +261,7 @@ double StagesInLanes::measured() const {
   for (std::size_t a = 0; a < at_.n; ++a) {
     for (std::size_t l = 0; l < at_.k; ++l) {
       const double size = std::abs(row(at_.correction() + a)[l]);
-      const double here = in_units(size, row(at_.unit_of() + a)[l]);
-      largest = here <= largest ? largest : here;
+      largest = larger_size(largest, in_units_of_noise(size, row(at_.unit_of() + a)[l]));
       total += size;
     }
   }
@@ -282,8 +274,7 @@ double StagesInLanes::distance_of(std::span<const double> other) const {
     for (std::size_t l = 0; l < at_.k; ++l) {
       const double x = row(at_.at_end() + a)[l];
       const double unit = epsilon * (row(at_.noise() + a)[l] + std::abs(x));
-      const double here = in_units(std::abs(other[a * at_.k + l] - x), unit);
-      largest = here <= largest ? largest : here;
+      largest = larger_size(largest, in_units_of_noise(std::abs(other[a * at_.k + l] - x), unit));
     }
   }
   return largest;

@@ -12,7 +12,8 @@ template <class R>
 struct Halves {
   R high;
   R low;
-  explicit constexpr Halves(R x) {
+  /// Inlined always: a call in the middle of an iteration empties the registers, which costs a step of cg a fifth.
+  [[gnu::always_inline]] explicit constexpr Halves(R x) {
     constexpr R splitter = static_cast<R>(1ULL << ((std::numeric_limits<R>::digits + 1) / 2)) + 1;
     const R large = splitter * x;
     high = large - (large - x);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hamflow/numerics/newton_progress.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
 #include "hamflow/run/stages_in_lanes.hpp"
 
@@ -34,8 +35,8 @@ class IterationRunner {
   int solved(std::span<double> frame, int& doubt);
   bool correct(std::span<double> frame);
   bool end(std::span<double> frame);
-  /// Of the last correction. Not finite: it is none.
-  double size_of_correction(std::span<const double> frame) const;
+  NewtonDecision judge(std::span<const double> frame, NewtonProgress<double>& progress) const;
+  /// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
   bool is_hidden(std::span<const double> frame) const;
 
   RecordedIteration recorded_;

@@ -154,11 +154,8 @@ Correction<Real> in_units_of_noise(const Vector<Real, dynamic>& x, const Average
   constexpr auto epsilon = Epsilon<Real>{};
   Real distance(0);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const Real size = abs(correction[i]);
-    Real unit = epsilon * Real(at.noise[i] + abs(x[i]));
-    if (!(unit > epsilon * Real(epsilon * size))) unit = epsilon * size;  // at 0 so far, without noise of its own
-    const Real here = size / larger(unit, std::numeric_limits<Real>::min());
-    distance = here <= distance ? distance : here;
+    const Real unit = epsilon * Real(at.noise[i] + abs(x[i]));
+    distance = larger_size(distance, hamflow::in_units_of_noise(Real(abs(correction[i])), unit));
   }
   return {distance, Real(1)};
 }

@@ -74,11 +74,8 @@ class GeneralElement : public SegmentEquations<P, R> {
   static Correction<Real> measured(const X& noise, const X& x, const X& correction) {
     Real distance(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Real size = abs(correction[i]);
-      Real unit = epsilon * (noise[i] + abs(x[i]));
-      if (!(unit > epsilon * (epsilon * size))) unit = epsilon * size;  // at 0 so far, without noise of its own
-      const Real here = size / larger(unit, std::numeric_limits<Real>::min());
-      distance = here <= distance ? distance : here;
+      const Real unit = epsilon * (noise[i] + abs(x[i]));
+      distance = larger_size(distance, in_units_of_noise(Real(abs(correction[i])), unit));
     }
     return {distance, Real(1)};
   }

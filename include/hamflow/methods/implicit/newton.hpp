@@ -18,58 +18,9 @@
 #include "hamflow/methods/implicit/rounding_by_state.hpp"
 #include "hamflow/numerics/few.hpp"
 #include "hamflow/numerics/lu_factors.hpp"
+#include "hamflow/numerics/newton_progress.hpp"
 
 namespace hamflow {
-
-/// Whether Newton has come to where the rounding of the residual hides what is left. A correction below the noise is
-/// noise itself. With a rate theta of decrease, quadratic convergence predicts theta^2 |correction| for the next one.
-/// What is left undone has the same sign at the same phase of every orbit and adds up linearly, rounding only as a
-/// square root: it has to lie so far below the noise that 10^8 steps (a walk of 10^4 noises) do not show it, hence
-/// 1/16384. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, below
-/// 4096 estimates, are noise too. Larger ones are a cycle of Newton's, which has no solution to end at.
-/// @param size, before |correction| of this iteration and the one before, in the units of noise
-/// @param first there is no full correction before this one
-/// @param stalls corrections in a row that did not shrink; counted here
-template <class Real>
-constexpr bool newton_at_rounding(const Real& size, const Real& before, bool first, const Real& noise, int& stalls) {
-  const Real rate = !first && before > Real(0) ? size / before : Real(1);
-  stalls = !first && rate > Real(0.9) ? stalls + 1 : 0;
-  return size <= noise || (!first && rate * rate * size <= noise / 16384) || (rate > Real(0.5) && size <= 64 * noise) ||
-         (stalls >= 2 && size <= Real(1 << 12) * noise);
-}
-
-/// The same for iterations whose corrections shrink by a factor theta each time, a tangent of old or none at all. What
-/// is left undone is then theta/(1 - theta) of the last correction, with its sign; so that it does not add up to a
-/// drift it has to lie as far below the noise, or corrections have ceased to shrink, as they do in cycles of a few
-/// roundings. [HairerMcLachlanRazakarivony2008]  Above the estimate of the noise it takes twelve in a row that are no
-/// smaller: where what is left turns while it shrinks, some of a few are larger than the one before.
-/// @param least of all corrections before this one; kept here
-/// @param stalls corrections in a row that were no smaller than that; counted here
-template <class Real>
-constexpr bool linear_at_rounding(const Real& size, const Real& before, bool first, const Real& noise, Real& least,
-                                  int& stalls) {
-  const Real rate = !first && before > Real(0) ? size / before : Real(1);
-  stalls = !first && !(size < least) ? stalls + 1 : 0;
-  if (first || size < least) least = size;
-  return size <= noise / 16384 || (rate < Real(1) && rate * size <= (Real(1) - rate) * noise / 16384) ||
-         (stalls >= 1 && size <= noise) || (stalls >= 2 && size <= Real(4) * noise) ||
-         (stalls >= 12 && size <= Real(1 << 12) * noise);
-}
-
-/// Whether corrections that do not settle have ceased to shrink, so that the noise itself is in question. Programs of a
-/// step leave it then to the simulation, which looks closer.
-constexpr bool have_stalled(Iteration iteration, int stalls) {
-  return stalls >= (iteration == Iteration::newton ? 4 : 12);
-}
-
-/// Whether what counts as rounding is no less than a millionth of the unknowns themselves: at a guess so far off that
-/// forces round by more than the whole step, any correction looks small. At the solution of a step that does not begin
-/// at rest it is 10^-12 of them, of one of h omega = 1000 10^-10.
-/// @param unit what the largest of them rounds by   @param unknown the largest of them
-template <class Real>
-constexpr bool hidden_by_rounding(const Real& unit, const Real& unknown) {
-  return unit > unknown / (1 << 20);
-}
 
 namespace detail {
 /// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
@@ -196,7 +147,6 @@ class Newton {
     bool missed = false;  // the first correction was larger than the terms of the step
     Real noise{0};        // what the last correction was compared with
   };
-  static constexpr int good_guesses_wanted = 3;  // as many as are extrapolated from
   static constexpr auto epsilon = Epsilon<Real>{};
 
   /// A function of its own, with x by value and the rest where it is: fastest by far (measured; inlined into solve() a
@@ -206,19 +156,13 @@ class Newton {
                                    Course& course) const {
     const NewtonOptions& options = report.options;
     Variables x = found.x;
-    Real previous(0);  // |correction| of the iteration before
-    Real first(0);
     Real noise(0);
-    [[maybe_unused]] Real least(0);
     bool at_rounding = false;  // no further correction can be told from rounding
     bool was_at_rounding = false;
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
-    int stalls = 0;
     [[maybe_unused]] Iteration iteration = first_iteration(options.iteration);
-    [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
-    [[maybe_unused]] Real doubted_terms(0);  // what the terms of forces rounded by at the last of them
-    bool is_anew = true;                     // there is no full correction before this one, in the same units
+    NewtonProgress<Real> progress(detail::AnyIteration<E> ? convergence_of(iteration) : Convergence::quadratic);
     [[maybe_unused]] Variables rounding{};   // of the residual, beside what its terms tell; empty: not asked for
     [[maybe_unused]] Real rounded_terms(0);  // what its terms told there
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
@@ -232,7 +176,7 @@ class Newton {
         // What was asked far from a solution, where forces are larger, is not true at one.
         if (rounding.size() > 0 && detail::sum_of(at.noise) < rounded_terms / 2) {
           rounding = {};
-          is_anew = true;
+          progress.restart();
         }
         for (std::size_t i = 0; i < rounding.size(); ++i) at.noise[i] += rounding[i];
       }
@@ -247,7 +191,7 @@ class Newton {
             if (!small) ++report.effort.stagnated;
             found.taken = step.taken(x, at);
             found.x = x;
-            course = {epsilon * first > noise, noise};
+            course = {progress.began_far_away(noise), noise};
             return Ending::converged;
           }
         }
@@ -287,26 +231,24 @@ class Newton {
       noise = c.noise;
       Real total = c.size;  // NaN and infinity do not get lost in a sum, as they do in a maximum
       for (std::size_t i = 0; i < x.size(); ++i) total += abs(correction[i]);
-      if (!(total <= std::numeric_limits<Real>::max())) {
+      if (shortened) progress.restart();
+      const NewtonDecision decision = progress.judge(c.size, total, noise);
+      if (decision == NewtonDecision::not_finite) {
         if (report.log != nullptr) report.log->remark("not finite");
         return Ending::diverged;
       }
-      if (k == 0) first = c.size;
-      at_rounding = !detail::AnyIteration<E> || iteration == Iteration::newton
-                        ? newton_at_rounding(c.size, previous, is_anew || shortened, noise, stalls)
-                        : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
-      is_anew = false;
+      at_rounding = decision == NewtonDecision::settled;
       if constexpr (detail::AnyIteration<E>) {
         // What a tangent of old leaves of the last correction is no more than rounding where the residual is. Where the
         // unknowns round by more than that, it takes the tangent of the solution.
-        if (!at_rounding && iteration == Iteration::simplified && stalls >= 2) {
+        if (!at_rounding && iteration == Iteration::simplified && progress.stalls() >= 2) {
           iteration = Iteration::newton;
-          is_anew = true;
+          progress.restart(Convergence::quadratic);
         }
       }
       [[maybe_unused]] bool has_stalled = false;
       if constexpr (detail::StartsElsewhere<E>) {
-        has_stalled = !at_rounding && rounding.size() == 0 && have_stalled(iteration, stalls);
+        has_stalled = decision == NewtonDecision::stalled && rounding.size() == 0;
         if (has_stalled && iteration == Iteration::fixed_point) {
           at_rounding = max_norm(correction) <= Real(4) * detail::rounding_by_unknowns(step, x);
         }
@@ -314,21 +256,15 @@ class Newton {
       if constexpr (requires { step.doubts(x, at, correction); }) {
         if (at_rounding) {
           const Real terms = step.doubts(x, at, correction);
-          if (terms > Real(0)) [[unlikely]] {
-            if (doubts < 2 || terms < doubted_terms / 2) {  // as long as forces become smaller, this is no solution
-              ++doubts;
-              at_rounding = false;
-              is_anew = true;
-            }
-            doubted_terms = terms;
-          }
+          if (terms > Real(0) && progress.goes_on_with(terms)) [[unlikely]]
+            at_rounding = false;
         }
       }
       if constexpr (detail::StartsElsewhere<E>) {
         if (!at_rounding && has_stalled) {
           rounding = detail::rounding_by_state(step, x);
           rounded_terms = detail::sum_of(at.noise);
-          is_anew = true;
+          progress.restart();
         }
       }
       was_at_rounding = was_at_rounding || at_rounding;
@@ -343,10 +279,9 @@ class Newton {
         }
         found.taken = step.taken(x, at, correction);
         found.x = x;
-        course = {epsilon * first > noise, noise};
+        course = {progress.began_far_away(noise), noise};
         return Ending::converged;
       }
-      previous = c.size;
       if constexpr (damped) {
         if (!at_rounding) {
           if (!shorten(step, x, at, correction, shortened)) {
@@ -424,7 +359,7 @@ class Newton {
       for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= found.x[i];
       good = epsilon * step.measure(found.x, at, difference).size <= noise;
     }
-    doubt_ = good ? doubt_ - 1 : good_guesses_wanted;
+    doubt_ = good_guesses_wanted_after(doubt_, good);
   }
 
   typename detail::GuessesOf<E>::type memory_;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "hamflow/numerics/newton_progress.hpp"
+
 namespace hamflow {
 
 /// How the equations of a step are solved.
@@ -17,6 +19,9 @@ enum class Iteration {
 /// How a step is solved first, and mostly.
 constexpr Iteration first_iteration(Iteration iteration) {
   return iteration == Iteration::fixed_point_or_newton ? Iteration::fixed_point : iteration;
+}
+constexpr Convergence convergence_of(Iteration iteration) {
+  return iteration == Iteration::newton ? Convergence::quadratic : Convergence::linear;
 }
 /// As the subject of a sentence.
 inline std::string solver_name(Iteration iteration) {

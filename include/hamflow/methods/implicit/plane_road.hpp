@@ -1,5 +1,5 @@
 // The road that nearly every step of cg(1) in the plane takes: Newton's corrections from the extrapolated guess until
-// newton_at_rounding() ends them, in doubles, with nothing to report. The same operations in the same order as
+// NewtonProgress ends them, in doubles, with nothing to report. The same operations in the same order as
 // natural.hpp and newton.hpp, written out in plain numbers, which stay in registers: a step is one chain from guess to
 // guess, and what goes through memory on it, or is read there in pairs that were written one by one, costs a fifth. Two
 // Gauss points are evaluated in one register and added one after the other. A step that does not end there is Newton's.
@@ -90,8 +90,7 @@ template <class P>
   const double factor = h * h / 2;
   const V start = velocity_of(p0[0] + 0.5 * guess[0], p0[1] + 0.5 * guess[1]);
   double dx = h * start[0], dy = h * start[1];
-  double before = 0, first = 0;
-  int stalls = 0;
+  NewtonProgress<double> progress;
   for (int k = 0; k < most; ++k) {
     const detail::PlaneSums sums = detail::plane_sums(problem, rule, q0[0] + 0.5 * dx, q0[1] + 0.5 * dy, dx, dy);
     const double half_x = unit * sums.fx, half_y = unit * sums.fy;
@@ -108,10 +107,10 @@ template <class P>
     const double size = std::max(std::abs(ex), std::abs(ey));
     const double noise = epsilon * (std::max(flight, std::max(std::abs(target_x), std::abs(target_y))) +
                                     std::max(std::abs(dx + ex), std::abs(dy + ey)));
-    if (!(size + std::abs(ex) + std::abs(ey) <= std::numeric_limits<double>::max())) return {};
-    if (k == 0) first = size;
-    if (newton_at_rounding(size, before, k == 0, noise, stalls)) {
-      if (epsilon * first > noise) return {};
+    const NewtonDecision decision = progress.judge(size, size + std::abs(ex) + std::abs(ey), noise);
+    if (decision == NewtonDecision::not_finite) return {};
+    if (decision == NewtonDecision::settled) {
+      if (progress.began_far_away(noise)) return {};
       const double terms = std::max(std::abs(target_x), std::abs(target_y));
       if (hidden_by_rounding(epsilon * terms, std::max(flight, std::max(std::abs(dx + ex), std::abs(dy + ey))))) {
         return {};
@@ -132,7 +131,6 @@ template <class P>
       const double impulse_y = 2 * half_y + (2 * low_y - h * ((0 + sums.xy * cx) + sums.yy * cy));
       return {k + 1, Two{dx + cx, dy + cy}, Two{impulse_x, impulse_y}};
     }
-    before = size;
     dx += ex;
     dy += ey;
   }
