@@ -321,7 +321,7 @@ TEST(ReferenceSolution, ExactStatesAreRightNearDegenerateCases) {
     for (const int exponent : {2, 4, 7, 10, 14, 20, 27, 34, 40, 47}) {
       SCOPED_TRACE(std::string(d.name) + ", off by 2^-" + std::to_string(exponent));
       const Case c = d.at(std::ldexp(1.0, -exponent));
-      const auto problem_entry = find_problem(c);
+      const auto problem_entry = find_problem(c.problem, c.variant);
       const ProblemEntry& problem = *problem_entry;
       std::vector<double> q, p;
       for (const std::string& x : c.q) q.push_back(number_value(x));
