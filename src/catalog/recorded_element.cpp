@@ -65,7 +65,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
       if (fill()) {
         if ((!loop_ || points_ != points()) && !make_loop()) return Base::advance(steps);
         Effort effort = method_.effort();
-        const std::int64_t taken = loop_->run(numbers_, steps, effort);
+        const std::int64_t taken = loop_->begin(numbers_) ? loop_->run(numbers_, steps, effort) : 0;
         if (!std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(frame_.correction()),
                          [](double x) { return std::isfinite(x); })) {
           return Base::advance(steps);
@@ -110,32 +110,33 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     if (options.tolerance || options.diagnostics || options.iteration != Iteration::newton) return false;
     return loop_ || (asked_ += steps) >= worth_recording;
   }
-  /// The numbers of the next step. @return whether it begins with a first guess from the last three
+  /// The numbers of the next step, without its first guess. @return whether that comes from the last three
   bool fill() {
     if (!method_.newton().trusts_memory() || !method_.newton().memory().is_full()) return false;
     numbers_.assign(frame_.size(), 0.0);
-    const double h = clock_.step_length();
-    numbers_[IterationFrame::h] = h;
+    numbers_[IterationFrame::h] = clock_.step_length();
     numbers_[IterationFrame::position] = static_cast<double>(clock_.position());
     std::size_t k = IterationFrame::carried;
     for_each_carried([&](double& x) { numbers_[k++] = x; }, z_, probe_);
     const auto& memory = method_.newton().memory();
-    const auto& problem = Base::problem();
-    const Vector<double, dynamic> q0 = z_.positions();
-    const Vector<double, dynamic> p0 = z_.momenta();
-    if (method_.setup().automatic()) numbers_[frame_.energy()] = hamflow::energy(problem, q0, p0);
-    Effort unused;
-    const Few x = Equations(method_.setup(), problem, h, q0, p0, unused).started(memory.predicted());
+    if (method_.setup().automatic()) {
+      numbers_[frame_.energy()] = hamflow::energy(Base::problem(), z_.positions(), z_.momenta());
+    }
     for (std::size_t i = 0; i < frame_.m; ++i) {
       for (std::size_t back = 0; back < 3; ++back) {
         if (memory.last(back).size() != frame_.m) return false;
         numbers_[frame_.memory() + back * frame_.m + i] = memory.last(back)[i];
       }
-      numbers_[frame_.x() + i] = x[i];
     }
     return true;
   }
   [[gnu::cold]] bool make_loop() {
+    const Vector<double, dynamic> q0 = z_.positions();
+    const Vector<double, dynamic> p0 = z_.momenta();
+    Effort unused;
+    const Few x = Equations(method_.setup(), Base::problem(), clock_.step_length(), q0, p0, unused)
+                      .started(method_.newton().memory().predicted());
+    for (std::size_t i = 0; i < frame_.m; ++i) numbers_[frame_.x() + i] = x[i];
     points_ = points();
     loop_ = maker_(frame_, numbers_, {clock_.start(), static_cast<double>(clock_.direction())}, points_);
     if (!loop_) maker_ = {};

@@ -51,9 +51,10 @@ class SegmentLoop {
 
  public:
   /// @param work of one evaluation of the equations   @param work_of_finish of what judges the points
-  SegmentLoop(const SegmentFrame& frame, const Program& equations, const Program& finish, const Effort& work,
-              const Effort& work_of_finish, int most_corrections)
+  SegmentLoop(const SegmentFrame& frame, const Program& first_guess, const Program& equations, const Program& finish,
+              const Effort& work, const Effort& work_of_finish, int most_corrections)
       : frame_(frame),
+        first_guess_(make_step_loop(first_guess)),
         equations_(make_step_loop(equations)),
         finish_(make_step_loop(finish)),
         work_(work),
@@ -61,6 +62,8 @@ class SegmentLoop {
         most_corrections_(most_corrections),
         before_(frame.correction()) {}
 
+  /// Puts the first guess of a step into a frame. @return whether it is one
+  bool begin(std::span<double> numbers) const { return first_guess_->run(numbers, 1); }
   /// Takes steps from a frame with a first guess, until a step is for the simulation.
   /// @return how many were taken; the frame is behind them   @param effort to which their work is added
   std::int64_t run(std::span<double> numbers, std::int64_t steps, Effort& effort) {
@@ -158,6 +161,7 @@ class SegmentLoop {
   }
 
   SegmentFrame frame_;
+  std::shared_ptr<const StepLoop> first_guess_;
   std::shared_ptr<const StepLoop> equations_;
   std::shared_ptr<const StepLoop> finish_;
   Effort work_;
@@ -187,16 +191,28 @@ class SegmentRecorder {
   std::optional<SegmentLoop> loop(std::span<const double> numbers, const IterationTime& time) const {
     try {
       Effort work, work_of_finish;
+      const Program guess = first_guess(numbers, time);
       const Program at_x = equations(numbers, time, work);
       const std::optional<Program> finish = end_of_step(numbers, time, work_of_finish);
       if (!finish) return std::nullopt;
-      return SegmentLoop(frame_, at_x, *finish, work, work_of_finish, setup_.newton().max_iterations);
+      return SegmentLoop(frame_, guess, at_x, *finish, work, work_of_finish, setup_.newton().max_iterations);
     } catch (const CannotRecord&) {
       return std::nullopt;
     }
   }
 
  private:
+  Program first_guess(std::span<const double> numbers, const IterationTime& time) const {
+    Frame f(watched_, frame_.carried(), numbers, time.start);
+    const V q0 = f.z.positions();
+    const V p0 = f.z.momenta();
+    Effort unused;
+    Extrapolation<V> memory;
+    for (std::size_t back = 3; back-- > 0;) memory.remember(f.read(frame_.memory() + back * frame_.m, frame_.m));
+    const Element e(setup_, problem_, f.numbers[IterationFrame::h], q0, p0, unused);
+    f.put(e.started(memory.predicted()), frame_.x());
+    return program_of(f.recorder.finish(f.numbers));
+  }
   Program equations(std::span<const double> numbers, const IterationTime& time, Effort& work) const {
     Frame f(watched_, frame_.carried(), numbers, time.start);
     const V q0 = f.z.positions();

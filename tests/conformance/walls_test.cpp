@@ -162,10 +162,10 @@ TEST(Walls, IterationsAreCountedByStep) {
 }
 
 /// An empty text among the choices says that there are no walls.
-TEST(Walls, AnEmptyTextIsNone) {
+TEST(Walls, WithoutThemNothingBounces) {
   const Request behind = t_tube("stv4", WallRule::event, "0.01");
   Request free = behind;
-  free.variant[wall_keys().walls.name] = "";
+  free.walls.reset();
   const auto at_end = [](const Request& request) {
     const auto simulation = make_simulation(request);
     EXPECT_EQ(simulation->advance(300), Outcome::done);

@@ -95,7 +95,7 @@ TEST(StepLoop, EveryInstructionOnSpecialNumbers) {
   constexpr double inf = std::numeric_limits<double>::infinity(), tiny = 0x1p-1074;
   const double numbers[] = {0.0,  -0.0,         1,    -1,    0.5,       -2.5,  inf,
                             -inf, std::nan(""), tiny, -tiny, 0x1p-1022, 1e308, -1e308};
-  for (int i = 0; i <= static_cast<int>(I::power); ++i) {
+  for (int i = static_cast<int>(I::negate); i <= static_cast<int>(I::choose); ++i) {
     Program p;
     const auto instruction = static_cast<I>(i);
     const int arity = native::arity(instruction);
