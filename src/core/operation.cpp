@@ -1,15 +1,22 @@
 #include "hamflow/core/operation.hpp"
 
-#include <array>
+#include <vector>
 
 namespace hamflow {
 
 std::span<const NamedFunction> named_functions() {
-#define HAMFLOW_ROW(name, symmetry, rule, series) NamedFunction{#name, Operation::name},
-  static constexpr std::array all{NamedFunction{"sqrt", Operation::sqrt},
-                                  HAMFLOW_FUNCTIONS(HAMFLOW_ROW) NamedFunction{"atan2", Operation::atan2},
-                                  NamedFunction{"abs", Operation::abs}};
+  static const std::vector<NamedFunction> all = [] {
+    std::vector<NamedFunction> names{{"sqrt", Operation::sqrt}};
+    const auto add = [&](NamedFunction function) {
+      names.push_back(function);
+      if (function.operation == Operation::atan) names.push_back({"atan2", Operation::atan2});
+    };
+#define HAMFLOW_ROW(name, symmetry, rule, series) add({#name, Operation::name});
+    HAMFLOW_FUNCTIONS(HAMFLOW_ROW)
 #undef HAMFLOW_ROW
+    add({"abs", Operation::abs});
+    return names;
+  }();
   return all;
 }
 

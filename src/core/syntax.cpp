@@ -90,12 +90,13 @@ class SyntaxReader {
     const char last = gap > 0 ? text()[gap - 1] : '\0';
     const std::string go_on = operators + std::string(" or ") + where_it_ends;
     if (here() == ')') refuse(at, "')' without its '('", go_on);
-    if (here() == ']') refuse(at, "']' without its '['", go_on);
+    if (here() == ']' && !rules_.only_numbers) refuse(at, "']' without its '['", go_on);
     if (here() == ',' && is_digit(last) && is_digit(behind(1))) {
       refuse(at, "',' in a number", "a point before decimals", with(at, at + 1, "."));
     }
-    if (here() == '[') refuse(at, "'[' after what is no name", "an index after a name, as in x[1]");
-    if (here() == '=') refuse(at, "'=' after a complete formula", "let name = ... in ...");
+    if (here() == '[' && !rules_.only_numbers)
+      refuse(at, "'[' after what is no name", "an index after a name, as in x[1]");
+    if (here() == '=' && !rules_.only_numbers) refuse(at, "'=' after a complete formula", "let name = ... in ...");
     if (here() != '(' && !is_letter(here()) && !is_digit(here())) {
       refuse(at, character_at(text(), at) + " after a complete number", go_on);
     }
@@ -161,7 +162,9 @@ class SyntaxReader {
    public:
     explicit Level(SyntaxReader& reader) : reader_(reader) {
       if (++reader_.depth_ > deepest_expression) {
-        reader_.refuse(reader_.at_, "more than 200 nested signs, powers, parentheses and let", "at most 200");
+        const char* const nested =
+            reader_.rules_.only_numbers ? "signs, powers and parentheses" : "signs, powers, parentheses and let";
+        reader_.refuse(reader_.at_, std::string("more than 200 nested ") + nested, "at most 200");
       }
     }
     ~Level() { --reader_.depth_; }
@@ -173,10 +176,11 @@ class SyntaxReader {
   };
 
   int expression() {
+    if (rules_.only_numbers) return sum_of_products();
     const Level level(*this);
     skip_space();
     const std::size_t begin = at_;
-    if (rules_.only_numbers || !take_word("let")) return sum_of_products();
+    if (!take_word("let")) return sum_of_products();
     return bindings(begin);
   }
   /// name = value, name = value in body

@@ -162,7 +162,10 @@ class Reverse(CommandCase):
         sets = ("--set", "method={name='stv4'}", "--set", "run.checkpoint_every=100", "--out", "r")
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", *sets, "--json", "--set", "run.steps=100_000_000"],
                                    cwd=self.folder, stdout=subprocess.PIPE, text=True)
-        until((self.folder / "r" / "reversal.bin").exists, process)
+        state = self.folder / "r" / "reversal.bin"
+        until(state.exists, process)
+        first = state.read_bytes()  # of the start
+        until(lambda: state.read_bytes() != first, process)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual((process.returncode, json.loads(out)["status"]), (130, "interrupted"))
