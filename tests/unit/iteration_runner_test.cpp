@@ -149,7 +149,7 @@ TEST(SegmentLoop, HasTheBitsOfStepsOneByOne) {
   const std::string kepler = "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)";
   const Case cases[] = {
       typed(kepler, {"x", "y"}, {"0.4", "0"}, {"0", "2"}, "0.1"),
-      typed(kepler, {"x", "y"}, {"1", "0"}, {"0", "0.3"}, "0.02"),
+      typed(kepler, {"x", "y"}, {"1", "0"}, {"0", "0.3"}, "0.006"),
       typed("p^2/2 - cos(q)", {"q"}, {"1.5"}, {"0.3"}, "0.2"),
       typed("(p_x^2 + 2*p_y^2 + p_z^2)/2 + x^4/4 + x*y*z + exp(y) - y + z^2", {"x", "y", "z"}, {"0.3", "0.2", "-0.1"},
             {"0.1", "0", "0.2"}, "0.05"),
