@@ -138,7 +138,7 @@ class SyntaxReader {
     return false;
   }
   int add(SyntaxPart part) {
-    if (syntax_.parts.size() > 2 * rules_.operations) {
+    if (syntax_.parts.size() >= 2 * rules_.operations) {
       const std::string most = power_of_ten(rules_.operations);
       refuse(part.at, "more than " + most + " operations", "at most " + most);
     }
