@@ -23,7 +23,6 @@ enum class NewtonDecision {
   not_finite  // no solution can be reached from here
 };
 
-/// Its functions are inlined always, so that its numbers can stay in registers.
 template <class Real>
 class NewtonProgress {
  public:
@@ -38,7 +37,8 @@ class NewtonProgress {
     if (!has_first_) first_ = size;
     has_first_ = true;
     const bool is_quadratic = convergence_ == Convergence::quadratic;
-    const bool has_settled = is_quadratic ? settles_quadratically(size, noise) : settles_linearly(size, noise);
+    const bool has_settled = is_quadratic ? settles_quadratically(size, previous_, is_anew_, noise, stalls_)
+                                          : settles_linearly(size, previous_, is_anew_, noise, least_, stalls_);
     previous_ = size;
     is_anew_ = false;
     if (has_settled) return NewtonDecision::settled;
@@ -79,11 +79,13 @@ class NewtonProgress {
   /// square root: it has to lie so far below the noise that 10^8 steps (a walk of 10^4 noises) do not show it, hence
   /// 1/16384. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, below
   /// 4096 estimates, are noise too. Larger ones are a cycle of Newton's, which has no solution to end at.
-  [[gnu::always_inline]] constexpr bool settles_quadratically(const Real& size, const Real& noise) {
-    const Real rate = !is_anew_ && previous_ > Real(0) ? size / previous_ : Real(1);
-    stalls_ = !is_anew_ && rate > Real(0.9) ? stalls_ + 1 : 0;
-    return size <= noise || (!is_anew_ && rate * rate * size <= noise / 16384) ||
-           (rate > Real(0.5) && size <= 64 * noise) || (stalls_ >= 2 && size <= Real(1 << 12) * noise);
+  /// Without always_inline the compiler optimises this by itself first: fewer branches, 3 % of a step of cg on Kepler.
+  static constexpr bool settles_quadratically(const Real& size, const Real& before, bool is_anew, const Real& noise,
+                                              int& stalls) {
+    const Real rate = !is_anew && before > Real(0) ? size / before : Real(1);
+    stalls = !is_anew && rate > Real(0.9) ? stalls + 1 : 0;
+    return size <= noise || (!is_anew && rate * rate * size <= noise / 16384) ||
+           (rate > Real(0.5) && size <= 64 * noise) || (stalls >= 2 && size <= Real(1 << 12) * noise);
   }
 
   /// The same for corrections that shrink by a factor theta each time. What is left undone is then theta/(1 - theta) of
@@ -91,13 +93,14 @@ class NewtonProgress {
   /// corrections have ceased to shrink, as they do in cycles of a few roundings. [HairerMcLachlanRazakarivony2008]
   /// Above the estimate of the noise it takes twelve in a row that are no smaller than the least so far: where what is
   /// left turns while it shrinks, some of a few are larger than the one before.
-  [[gnu::always_inline]] constexpr bool settles_linearly(const Real& size, const Real& noise) {
-    const Real rate = !is_anew_ && previous_ > Real(0) ? size / previous_ : Real(1);
-    stalls_ = !is_anew_ && !(size < least_) ? stalls_ + 1 : 0;
-    if (is_anew_ || size < least_) least_ = size;
+  static constexpr bool settles_linearly(const Real& size, const Real& before, bool is_anew, const Real& noise,
+                                         Real& least, int& stalls) {
+    const Real rate = !is_anew && before > Real(0) ? size / before : Real(1);
+    stalls = !is_anew && !(size < least) ? stalls + 1 : 0;
+    if (is_anew || size < least) least = size;
     return size <= noise / 16384 || (rate < Real(1) && rate * size <= (Real(1) - rate) * noise / 16384) ||
-           (stalls_ >= 1 && size <= noise) || (stalls_ >= 2 && size <= Real(4) * noise) ||
-           (stalls_ >= 12 && size <= Real(1 << 12) * noise);
+           (stalls >= 1 && size <= noise) || (stalls >= 2 && size <= Real(4) * noise) ||
+           (stalls >= 12 && size <= Real(1 << 12) * noise);
   }
 
   Convergence convergence_ = Convergence::quadratic;
