@@ -255,6 +255,7 @@
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/parts_in_numbers.hpp"
 #include "hamflow/run/probe.hpp"
+#include "hamflow/run/quick_steps.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
 #include "hamflow/run/recorded_part.hpp"
 #include "hamflow/run/recorded_simulation.hpp"

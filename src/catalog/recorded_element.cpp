@@ -2,6 +2,7 @@
 
 #include "erased.hpp"
 #include "hamflow/methods/cg.hpp"
+#include "hamflow/run/quick_steps.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "recorded_element.hpp"
 #include "segment_loop.hpp"
@@ -59,27 +60,9 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   }
 
   Outcome advance(std::int64_t steps) override {
-    std::int64_t alone = 1;
-    while (steps > 0) {
-      if (!is_worth_running(steps)) return Base::advance(steps);
-      if (fill()) {
-        if ((!loop_ || points_ != points()) && !make_loop()) return Base::advance(steps);
-        Effort effort = method_.effort();
-        const std::int64_t taken = loop_->begin(numbers_) ? loop_->run(numbers_, steps, effort) : 0;
-        if (!std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(frame_.correction()),
-                         [](double x) { return std::isfinite(x); })) {
-          return Base::advance(steps);
-        }
-        if (taken > 0) take(taken, effort);
-        steps -= taken;
-        alone = taken < alone ? std::min(2 * alone, most_alone) : 1;
-        if (steps == 0) break;
-      }
-      const std::int64_t now = std::min(alone, steps);
-      if (const Outcome outcome = Base::advance(now); outcome != Outcome::done) return outcome;
-      steps -= now;
-    }
-    return Outcome::done;
+    return take_quickly(
+        steps, [&](std::int64_t left) { return take_by_loop(left); },
+        [&](std::int64_t some) { return Base::advance(some); });
   }
   void reverse_time() override {
     Base::reverse_time();
@@ -99,9 +82,20 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   static constexpr std::int64_t worth_recording = 200;
   /// Filling a frame costs about as much as a step.
   static constexpr std::int64_t few_steps = 4;
-  /// Steps in a row that the loop did not take.
-  static constexpr std::int64_t most_alone = 64;
 
+  /// See take_quickly().
+  std::optional<std::int64_t> take_by_loop(std::int64_t steps) {
+    if (!is_worth_running(steps)) return std::nullopt;
+    if (!fill()) return 0;
+    if ((!loop_ || points_ != points()) && !make_loop()) return std::nullopt;
+    Effort effort = method_.effort();
+    const std::int64_t taken = loop_->begin(numbers_) ? loop_->run(numbers_, steps, effort) : 0;
+    if (taken == 0) return 0;
+    const std::span state(numbers_.data(), frame_.correction());
+    if (!std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); })) return std::nullopt;
+    take(taken, effort);
+    return taken;
+  }
   int points() const { return method_.setup().rule().points; }
   /// What is asked of every residual and diagnostics are not in the programs, nor are steps that vary.
   bool is_worth_running(std::int64_t steps) {

@@ -225,33 +225,27 @@ class SyntaxReader {
     return name;
   }
 
-  int sum_of_products() {
-    int x = product();
+  /// Operands with one of two operators between them, from left to right.
+  template <class Next>
+  int chain(const char* first, Operation if_first, const char* second, Operation if_second, const Next& next) {
+    int x = next();
     for (;;) {
       skip_space();
       const std::size_t sign = at_;
-      if (take("+")) {
-        x = binary(Operation::add, sign, x, product());
-      } else if (take("-")) {
-        x = binary(Operation::subtract, sign, x, product());
+      if (take(first)) {
+        x = binary(if_first, sign, x, next());
+      } else if (take(second)) {
+        x = binary(if_second, sign, x, next());
       } else {
         return x;
       }
     }
   }
-  int product() {
-    int x = unary();
-    for (;;) {
-      skip_space();
-      const std::size_t sign = at_;
-      if (take("*")) {  // no "**": a power has read it
-        x = binary(Operation::multiply, sign, x, unary());
-      } else if (take("/")) {
-        x = binary(Operation::divide, sign, x, unary());
-      } else {
-        return x;
-      }
-    }
+  int sum_of_products() {
+    return chain("+", Operation::add, "-", Operation::subtract, [this] { return product(); });
+  }
+  int product() {  // no "**" is met here: a power has read it
+    return chain("*", Operation::multiply, "/", Operation::divide, [this] { return unary(); });
   }
   int unary() {
     const Level level(*this);

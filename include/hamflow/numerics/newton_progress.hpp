@@ -88,11 +88,12 @@ class NewtonProgress {
            (rate > Real(0.5) && size <= 64 * noise) || (stalls >= 2 && size <= Real(1 << 12) * noise);
   }
 
-  /// The same for corrections that shrink by a factor theta each time. What is left undone is then theta/(1 - theta) of
-  /// the last correction, with its sign; so that it does not add up to a drift it has to lie as far below the noise, or
-  /// corrections have ceased to shrink, as they do in cycles of a few roundings. [HairerMcLachlanRazakarivony2008]
-  /// Above the estimate of the noise it takes twelve in a row that are no smaller than the least so far: where what is
-  /// left turns while it shrinks, some of a few are larger than the one before.
+  /// The same for corrections that shrink by a factor theta each time. After a correction c the corrections that were
+  /// left out would add up to theta/(1 - theta) c, with the sign of c. So that they do not add up to a drift over many
+  /// steps, this sum has to be below noise/16384, or corrections no longer shrink, as where an iteration repeats a
+  /// cycle of a few roundings. [HairerMcLachlanRazakarivony2008]  Corrections above the noise count as such a cycle
+  /// only after twelve in a row that are no smaller than the least so far: corrections that turn while they shrink are
+  /// sometimes larger than the one before.
   static constexpr bool settles_linearly(const Real& size, const Real& before, bool is_anew, const Real& noise,
                                          Real& least, int& stalls) {
     const Real rate = !is_anew && before > Real(0) ? size / before : Real(1);

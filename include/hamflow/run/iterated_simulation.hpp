@@ -9,6 +9,7 @@
 
 #include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/iteration_runner.hpp"
+#include "hamflow/run/quick_steps.hpp"
 
 namespace hamflow {
 
@@ -56,29 +57,9 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   }
 
   Outcome advance(std::int64_t steps) override {
-    std::int64_t alone = 1;
-    while (steps > 0) {
-      if (!is_worth_running(steps)) return Base::advance(steps);
-      if (fill(values_)) {
-        if (!runner_) make_runner();
-        if (!runner_) return Base::advance(steps);
-        Effort effort = method_.effort();
-        int doubt = detail::doubt_of(method_);
-        std::int64_t taken = 0;
-        if (doubt == 0 || runner_->settles_doubts()) taken = runner_->run(values_, steps, effort, doubt);
-        if (taken > 0) {
-          take(values_, taken, effort);
-          detail::doubt_of(method_) = doubt;
-        }
-        steps -= taken;
-        alone = taken < alone ? std::min(2 * alone, most_alone) : 1;
-        if (steps == 0) break;
-      }
-      const std::int64_t now = std::min(alone, steps);
-      if (const Outcome outcome = Base::advance(now); outcome != Outcome::done) return outcome;
-      steps -= now;
-    }
-    return Outcome::done;
+    return take_quickly(
+        steps, [&](std::int64_t left) { return take_by_programs(left); },
+        [&](std::int64_t some) { return Base::advance(some); });
   }
   void reverse_time() override {
     Base::reverse_time();
@@ -142,9 +123,22 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   static constexpr std::int64_t worth_recording = 200;
   /// A frame costs about as much as a step.
   static constexpr std::int64_t few_steps = 4;
-  /// Steps in a row that the programs did not take.
-  static constexpr std::int64_t most_alone = 64;
 
+  /// See take_quickly().
+  std::optional<std::int64_t> take_by_programs(std::int64_t steps) {
+    if (!is_worth_running(steps)) return std::nullopt;
+    if (!fill(values_)) return 0;
+    if (!runner_) make_runner();
+    if (!runner_) return std::nullopt;
+    Effort effort = method_.effort();
+    int doubt = detail::doubt_of(method_);
+    if (doubt > 0 && !runner_->settles_doubts()) return 0;
+    const std::int64_t taken = runner_->run(values_, steps, effort, doubt);
+    if (taken == 0) return 0;
+    take(values_, taken, effort);
+    detail::doubt_of(method_) = doubt;
+    return taken;
+  }
   /// What is asked of every residual, diagnostics, a tangent that is kept and points that change are not in the
   /// programs; neither are steps that vary.
   bool is_worth_running(std::int64_t steps) {
