@@ -4,7 +4,7 @@
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/splitting.hpp"
-#include "hamflow/problems/n_body.hpp"
+#include "hamflow/problems/of_any_size/n_body.hpp"
 #include "library.hpp"
 
 namespace bench {

@@ -1,5 +1,5 @@
-# The catalogue is the folders: every file of problems/, problems/potentials/, problems/pairs/, methods/compositions/,
-# methods/splittings/, methods/force_gradient/, methods/tableaus/ and src/catalog/families/ is found here, and gets its line
+# The catalogue is the folders: every file of problems/, problems/of_any_size/, problems/potentials/, problems/pairs/, methods/compositions/,
+# methods/splittings/, methods/force_gradient/, methods/tableaus/ and src/methods/families/ is found here, and gets its line
 # in the generated lists (problems: a translation unit each). Adding one is adding a file. By convention problems/henon_heiles.hpp defines
 # the class template HenonHeiles, compositions/stv4.hpp the table compositions::stv4, families/runge_kutta.hpp the class
 # families::RungeKutta.
@@ -41,28 +41,23 @@ function(hamflow_pascal_case out snake)
   set(${out} "${result}" PARENT_SCOPE)
 endfunction()
 
-# Writes the two units of one problem, typed and behind virtual calls, and their declarations and calls to the lists.
-macro(hamflow_problem_unit header name body)
+# Writes the two units of the problem in `header`, typed and behind virtual calls, and their declarations and calls to the lists; erased_units
+# is the list that gets the second.
+macro(hamflow_problem_unit name body erased_units)
   set(unit "${generated}/problem_${name}.cpp")
-  set(unit_header problem_unit)
+  set(unit_header problems/problem_unit)
   set(unit_class ProblemUnit)
   set(unit_entry TypedEntry)
   set(entry entry)
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
   list(APPEND HAMFLOW_UNITS "${unit}")
   set(unit "${generated}/erased_${name}.cpp")
-  set(unit_header erased_unit)
+  set(unit_header problems/erased_unit)
   set(unit_class ErasedUnit)
   set(unit_entry ErasedEntry)
   set(entry erased)
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
-  # The force of many bodies is worth its optimisation; that of a few coordinates is recorded.
-  file(STRINGS "${PROJECT_SOURCE_DIR}/include/hamflow/problems/${header}.hpp" of_any_size REGEX "dynamic" LIMIT_COUNT 1)
-  if(of_any_size)
-    list(APPEND HAMFLOW_UNITS "${unit}")
-  else()
-    list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
-  endif()
+  list(APPEND ${erased_units} "${unit}")
   string(APPEND declarations "TypedEntry entry_${name}();\nErasedEntry erased_${name}();\n")
   string(APPEND problem_calls "joined(entry_${name}(), erased_${name}()), ")
   string(APPEND erased_calls "erased_${name}(), ")
@@ -87,12 +82,22 @@ using @entry@Family_@name@ = @family@;
 }  // namespace hamflow
 ]])
 
+# Problems of few coordinates are recorded, so that what is behind virtual calls may be compiled with less optimisation. The force
+# of problems of any size is worth its optimisation everywhere.
 hamflow_chosen_names(problem_names problems)
+hamflow_chosen_names(names_of_any_size problems/of_any_size)
+list(APPEND problem_names ${names_of_any_size})
+list(SORT problem_names)
 foreach(name IN LISTS problem_names)
   hamflow_pascal_case(type ${name})
-  set(header ${name})
   set(family "${type}<R>")
-  hamflow_problem_unit(${header} ${name} "${unit_text}")
+  if(name IN_LIST names_of_any_size)
+    set(header of_any_size/${name})
+    hamflow_problem_unit(${name} "${unit_text}" HAMFLOW_UNITS)
+  else()
+    set(header ${name})
+    hamflow_problem_unit(${name} "${unit_text}" HAMFLOW_ERASED_UNITS)
+  endif()
 endforeach()
 hamflow_chosen_names(potential_names problems/potentials)
 set(also "#include \"hamflow/problems/support/polar.hpp\"\n")
@@ -101,10 +106,10 @@ foreach(potential IN LISTS potential_names)
   set(name central_force_${potential})
   set(header potentials/${potential})
   set(family "CentralForce<R, ${type}>")
-  hamflow_problem_unit(${header} ${name} "${unit_text}")
+  hamflow_problem_unit(${name} "${unit_text}" HAMFLOW_ERASED_UNITS)
   set(name polar_${potential})
   set(family "PolarCentralForce<R, ${type}>")
-  hamflow_problem_unit(${header} ${name} "${unit_text}")
+  hamflow_problem_unit(${name} "${unit_text}" HAMFLOW_ERASED_UNITS)
 endforeach()
 
 # Pair laws are alternatives of one type, so that each of them is compiled with the gas once.
@@ -121,8 +126,8 @@ endforeach()
 file(CONFIGURE OUTPUT "${generated}/pair_list.hpp" CONTENT [[
 #pragma once
 #include <variant>
-@pair_includes@#include "pair_laws.hpp"
-#include "typed_pair.hpp"
+@pair_includes@#include "gas/pair_laws.hpp"
+#include "gas/typed_pair.hpp"
 namespace hamflow {
 template <class R>
 using PairLaws = std::variant<@pair_types@TypedPair<R>>;
@@ -177,14 +182,14 @@ inline const std::vector<const ForceGradientTable*>& force_gradient_tables() {
 }  // namespace hamflow
 ]] @ONLY)
 
-file(GLOB family_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/catalog/families/*.hpp")
+file(GLOB family_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/methods/families/*.hpp")
 list(SORT family_files)
 set(family_includes "")
 set(family_types)
 foreach(file IN LISTS family_files)
   get_filename_component(name "${file}" NAME_WE)
   hamflow_pascal_case(type ${name})
-  string(APPEND family_includes "#include \"families/${name}.hpp\"\n")
+  string(APPEND family_includes "#include \"methods/families/${name}.hpp\"\n")
   list(APPEND family_types ${type})
 endforeach()
 list(JOIN family_types ", " family_types)
@@ -200,8 +205,8 @@ using All = List<@family_types@>;
 
 file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
 #pragma once
-#include "erased.hpp"
-#include "typed_entry.hpp"
+#include "engine/erased.hpp"
+#include "problems/typed_entry.hpp"
 namespace hamflow {
 @declarations@
 inline ProblemEntry joined(const TypedEntry& typed, const ErasedEntry& erased) {

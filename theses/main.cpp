@@ -15,10 +15,10 @@
 
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_info.hpp"
+#include "hamflow/detail/workflow/rejection_json.hpp"
 #include "hamflow/figures/while_drawing.hpp"
-#include "hamflow/workflow/rejection_json.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "progress.hpp"
 #include "reproduce.hpp"

@@ -11,8 +11,8 @@
 
 #include "figure_seen.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/core/hash.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/hash.hpp"
 #include "hamflow/workflow/columns_file.hpp"
 
 namespace hamflow::reproduction {

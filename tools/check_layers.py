@@ -2,7 +2,7 @@
 
 The arrows stand in HACKING.md, in the block that begins with ```layers, and nowhere else. `a -> b, c` says that sources of
 the layer a may include headers of a, b and c, and of whatever b and c may include. A layer is a folder of include/hamflow by
-its name, a folder of src as src/NAME, one of the folders apps, tests, bench and examples, or the header hamflow.hpp."""
+its name (that of detail of the same name belongs to it), a folder of src as src/NAME, one of the folders apps, tests, bench and examples, or the header hamflow.hpp."""
 
 import collections
 import os
@@ -36,7 +36,7 @@ def arrows(text: str) -> dict[str, set[str]]:
 def layer_of(path: pathlib.PurePath) -> str:
     parts = path.parts
     if parts[0] == "include":
-        return parts[2]
+        return parts[3] if parts[2] == "detail" else parts[2]
     return f"src/{parts[1]}" if parts[0] == "src" else parts[0]
 
 

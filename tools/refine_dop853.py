@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The coefficients of DOP853 to 70 digits: refines the published ones and writes methods/dop853_tableau.hpp.
+"""The coefficients of DOP853 to 70 digits: refines the published ones and writes detail/methods/dop853_tableau.hpp.
 
 Hairer, Norsett and Wanner [HNW1993, II.5] print the coefficients of their code DOP853 to about 30 places. Here they are the
 start of a Newton iteration on everything that a coefficient has to satisfy:
@@ -10,7 +10,7 @@ start of a Newton iteration on everything that a coefficient has to satisfy:
 The solutions are a manifold: each step takes the least change (minimum norm), which gives the solution nearest to the
 published digits. The weights of the estimators, then linear, likewise: order 5 on the stages 1, 6..12, order 3 on 1, 9, 12.
 
-usage: python3 tools/refine_dop853.py > include/hamflow/methods/dop853_tableau.hpp
+usage: python3 tools/refine_dop853.py > include/hamflow/detail/methods/dop853_tableau.hpp
 """
 
 import sys

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hamflow/core/complaint.hpp"
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 namespace hamflow::app {
 

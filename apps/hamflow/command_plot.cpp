@@ -1,8 +1,8 @@
 // hamflow plot: a figure of runs, finished, running or cut short.
 #include "commands.hpp"
 #include "guarded.hpp"
-#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "progress.hpp"
 

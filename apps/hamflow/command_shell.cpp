@@ -15,7 +15,7 @@
 #include "commands.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/digits.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "progress.hpp"

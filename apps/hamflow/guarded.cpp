@@ -6,9 +6,9 @@
 #include <iostream>
 #include <new>
 
+#include "hamflow/detail/workflow/rejection_json.hpp"
 #include "hamflow/figures/while_drawing.hpp"
 #include "hamflow/scenario/rejection.hpp"
-#include "hamflow/workflow/rejection_json.hpp"
 #include "progress.hpp"
 #include "whole_file.hpp"
 

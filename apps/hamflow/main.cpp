@@ -9,9 +9,9 @@
 #include "figure_kinds.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/workflow/rejection_json.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/scenario/coordinates.hpp"
-#include "hamflow/workflow/rejection_json.hpp"
 #include "hamflow/workflow/sweep.hpp"
 
 namespace {

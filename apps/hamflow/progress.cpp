@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "commands.hpp"
-#include "hamflow/workflow/rejection_json.hpp"
+#include "hamflow/detail/workflow/rejection_json.hpp"
 
 namespace hamflow::app {
 

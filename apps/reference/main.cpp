@@ -7,8 +7,8 @@
 
 #include "figure_kinds.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/run/formula_options.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/walls.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"

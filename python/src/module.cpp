@@ -1,6 +1,6 @@
 #include "bindings.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 
 namespace {
 

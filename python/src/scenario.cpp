@@ -3,7 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
-#include "hamflow/run/digits.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "values.hpp"

@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "bindings.hpp"
-#include "hamflow/core/hash.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/digits.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "signals.hpp"

@@ -10,7 +10,7 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/core/thread_team.hpp"
+#include "hamflow/detail/core/thread_team.hpp"
 #include "neighbours.hpp"
 
 namespace hamflow {

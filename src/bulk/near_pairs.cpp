@@ -1,4 +1,4 @@
-#include "hamflow/core/near_pairs.hpp"
+#include "hamflow/detail/core/near_pairs.hpp"
 
 #include <cmath>
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hamflow/core/thread_team.hpp"
+#include "hamflow/detail/core/thread_team.hpp"
 #include "kernel.hpp"
 
 namespace hamflow::bulk {

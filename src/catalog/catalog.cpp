@@ -5,17 +5,17 @@
 #include <limits>
 
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
-#include "constrained_problems.hpp"
-#include "gas_entry.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "engine/make_simulation.hpp"
+#include "engine/recorded_step.hpp"
+#include "gas/gas_entry.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/fitting_methods.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
-#include "hamflow/run/make_simulation.hpp"
-#include "hamflow/run/recorded_step.hpp"
-#include "step_control.hpp"
-#include "typed_problem.hpp"
-#include "walled_problem.hpp"
+#include "methods/step_control.hpp"
+#include "problems/constrained_problems.hpp"
+#include "problems/typed_problem.hpp"
+#include "walls/walled_problem.hpp"
 
 namespace hamflow {
 

@@ -1,11 +1,11 @@
-#include "hamflow/run/digits.hpp"
+#include "hamflow/detail/run/digits.hpp"
 
 #include <algorithm>
 
 #include "catalog_lists.hpp"  // generated from the folder of problems
-#include "constrained_problems.hpp"
 #include "hamflow/formula/problem_texts.hpp"
-#include "typed_problem.hpp"
+#include "problems/constrained_problems.hpp"
+#include "problems/typed_problem.hpp"
 
 namespace hamflow {
 

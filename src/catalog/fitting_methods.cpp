@@ -1,4 +1,4 @@
-#include "hamflow/run/fitting_methods.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 
 namespace hamflow {
 

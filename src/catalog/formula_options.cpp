@@ -1,4 +1,4 @@
-#include "hamflow/run/formula_options.hpp"
+#include "hamflow/detail/run/formula_options.hpp"
 
 #include "hamflow/formula/problem_texts.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "step_control.hpp"
+#include "methods/step_control.hpp"
 
 namespace hamflow {
 

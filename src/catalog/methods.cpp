@@ -5,15 +5,15 @@
 #include <optional>
 #include <utility>
 
-#include "hamflow/core/option_names.hpp"
+#include "engine/large_steps.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
-#include "hamflow/run/large_steps.hpp"
-#include "hamflow/run/splitting_named.hpp"
-#include "recipes.hpp"
-#include "step_control.hpp"
+#include "methods/recipes.hpp"
+#include "methods/step_control.hpp"
 
 namespace hamflow {
 

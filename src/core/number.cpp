@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "hamflow/core/text_place.hpp"
+#include "text_place.hpp"
 
 namespace hamflow {
 

@@ -1,4 +1,4 @@
-#include "hamflow/core/operation.hpp"
+#include "hamflow/detail/core/operation.hpp"
 
 #include <vector>
 

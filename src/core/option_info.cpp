@@ -1,4 +1,4 @@
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 
 namespace hamflow {
 

@@ -1,9 +1,9 @@
-#include "hamflow/core/syntax.hpp"
+#include "hamflow/detail/core/syntax.hpp"
 
 #include <algorithm>
 
 #include "hamflow/core/text.hpp"
-#include "hamflow/core/text_place.hpp"
+#include "text_place.hpp"
 
 namespace hamflow {
 

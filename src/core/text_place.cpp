@@ -1,4 +1,4 @@
-#include "hamflow/core/text_place.hpp"
+#include "text_place.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -5,8 +5,8 @@
 #include "figure_kind.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "particles.hpp"
 #include "terminal.hpp"
 

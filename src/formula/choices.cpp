@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "hamflow/core/syntax.hpp"
+#include "core/text_place.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/core/text_place.hpp"
-#include "hamflow/formula/model.hpp"
+#include "hamflow/detail/core/syntax.hpp"
+#include "model.hpp"
 #include "names.hpp"
 
 namespace hamflow {

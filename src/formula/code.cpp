@@ -1,4 +1,4 @@
-#include "hamflow/formula/code.hpp"
+#include "hamflow/detail/formula/code.hpp"
 
 #include <cstdlib>
 

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "hamflow/formula/graph.hpp"
+#include "hamflow/detail/formula/graph.hpp"
 #include "rational.hpp"
 
 namespace hamflow::formula {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "hamflow/core/syntax.hpp"
+#include "core/text_place.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/core/text_place.hpp"
+#include "hamflow/detail/core/syntax.hpp"
 
 namespace hamflow {
 

@@ -1,4 +1,4 @@
-#include "hamflow/formula/graph.hpp"
+#include "hamflow/detail/formula/graph.hpp"
 
 namespace hamflow::formula {
 

@@ -1,4 +1,4 @@
-#include "hamflow/formula/model.hpp"
+#include "model.hpp"
 
 #include <algorithm>
 #include <set>

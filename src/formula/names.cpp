@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text_place.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/core/text_place.hpp"
 
 namespace hamflow::formula {
 

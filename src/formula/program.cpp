@@ -1,6 +1,6 @@
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/detail/numerics/program.hpp"
 
-#include "hamflow/formula/code.hpp"
+#include "hamflow/detail/formula/code.hpp"
 
 namespace hamflow::formula {
 

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "hamflow/core/hash.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/core/archive.hpp"
+#include "hamflow/detail/core/archive.hpp"
 
 namespace hamflow {
 

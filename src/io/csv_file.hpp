@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "hamflow/core/hash.hpp"
+#include "hamflow/detail/core/hash.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "run_header.hpp"
 

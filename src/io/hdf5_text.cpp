@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <span>
 
-#include "hamflow/core/hash.hpp"
+#include "hamflow/detail/core/hash.hpp"
 
 namespace hamflow {
 

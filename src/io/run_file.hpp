@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/run/run_tables.hpp"
+#include "hamflow/detail/run/run_tables.hpp"
 #include "run_header.hpp"
 #include "run_rows.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hdf5_text.hpp"
 #include "run_file.hpp"
 

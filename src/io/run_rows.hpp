@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/run/run_tables.hpp"
+#include "hamflow/detail/run/run_tables.hpp"
 #include "hamflow/run/section.hpp"
 #include "run_header.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/detail/numerics/program.hpp"
 
 namespace hamflow::native {
 

@@ -1,8 +1,8 @@
 // A program for lanes, in parts: what is done once, what is done in every step, several registers to a number.
 #pragma once
 
-#include "hamflow/numerics/program_lanes.hpp"
 #include "machine_code.hpp"
+#include "numerics/program_lanes.hpp"
 
 namespace hamflow::native {
 

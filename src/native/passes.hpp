@@ -1,7 +1,7 @@
 // From program to program, every bit kept: what is known is computed, what is written twice or never used goes.
 #pragma once
 
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/detail/numerics/program.hpp"
 
 namespace hamflow::native {
 

@@ -2,7 +2,7 @@
 // here depends on the processor but how many registers there are.
 #pragma once
 
-#include "hamflow/numerics/program_lanes.hpp"
+#include "numerics/program_lanes.hpp"
 
 namespace hamflow::native {
 

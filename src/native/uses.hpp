@@ -1,7 +1,7 @@
 // The events of a program in their order, and where each number is used next.
 #pragma once
 
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/detail/numerics/program.hpp"
 
 namespace hamflow::native {
 

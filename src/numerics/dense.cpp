@@ -1,5 +1,5 @@
 // What Eigen does, compiled once: it is more to read and to compile than all the rest of a problem.
-#include "hamflow/numerics/dense.hpp"
+#include "hamflow/detail/numerics/dense.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "hamflow/numerics/few.hpp"
+#include "hamflow/detail/numerics/few.hpp"
 
 namespace hamflow {
 

@@ -1,5 +1,5 @@
 // Eigen's solver, compiled once: it is more to compile than a whole problem.
-#include "hamflow/numerics/normal_modes.hpp"
+#include "hamflow/detail/numerics/normal_modes.hpp"
 
 #include <Eigen/Eigenvalues>
 

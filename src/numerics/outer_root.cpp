@@ -1,4 +1,4 @@
-#include "hamflow/numerics/outer_root.hpp"
+#include "outer_root.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>

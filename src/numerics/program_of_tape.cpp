@@ -1,4 +1,4 @@
-#include "hamflow/numerics/program_of_tape.hpp"
+#include "program_of_tape.hpp"
 
 #include <limits>
 #include <stdexcept>

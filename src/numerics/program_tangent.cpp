@@ -1,4 +1,4 @@
-#include "hamflow/numerics/program_tangent.hpp"
+#include "program_tangent.hpp"
 
 namespace hamflow {
 

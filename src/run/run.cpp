@@ -2,8 +2,8 @@
 #include <chrono>
 
 #include "hamflow/core/stop_question.hpp"
+#include "hamflow/detail/run/step_sums.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/step_sums.hpp"
 
 namespace hamflow {
 

@@ -1,10 +1,10 @@
-#include "hamflow/run/state_expression.hpp"
+#include "hamflow/detail/run/state_expression.hpp"
 
 #include <algorithm>
 #include <vector>
 
+#include "hamflow/detail/run/expression_in_digits.hpp"
 #include "hamflow/formula/formula.hpp"
-#include "hamflow/run/expression_in_digits.hpp"
 #include "hamflow/run/state_names.hpp"
 
 namespace hamflow {

@@ -1,4 +1,4 @@
-#include "hamflow/run/step_sums.hpp"
+#include "hamflow/detail/run/step_sums.hpp"
 
 namespace hamflow {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <fstream>
 
+#include "gas_start.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/scenario/gas_start.hpp"
 #include "hdf5_alone.hpp"
 #include "hdf5_read.hpp"
 

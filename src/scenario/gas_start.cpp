@@ -1,12 +1,12 @@
-#include "hamflow/scenario/gas_start.hpp"
+#include "gas_start.hpp"
 
 #include <algorithm>
 #include <fstream>
 
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 #include "hamflow/run/gas.hpp"
 
 namespace hamflow {

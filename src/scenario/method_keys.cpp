@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "scenario_reader.hpp"
 #include "toml_path.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 namespace hamflow {
 

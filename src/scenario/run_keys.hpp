@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 namespace hamflow {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "column_names.hpp"
-#include "hamflow/run/formula_options.hpp"
+#include "hamflow/detail/run/formula_options.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 

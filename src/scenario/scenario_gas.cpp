@@ -5,16 +5,16 @@
 #include <fstream>
 #include <span>
 
+#include "engine/large_steps.hpp"
+#include "gas/container.hpp"
+#include "gas/cutoff.hpp"
 #include "gas_checks.hpp"
-#include "hamflow/core/hash.hpp"
+#include "gas_start.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/methods/itoh_abe.hpp"
-#include "hamflow/problems/support/container.hpp"
-#include "hamflow/problems/support/cutoff.hpp"
-#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
-#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/state_names.hpp"
-#include "hamflow/scenario/gas_start.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {

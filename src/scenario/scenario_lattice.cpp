@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "hamflow/problems/support/container.hpp"
+#include "gas/container.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 

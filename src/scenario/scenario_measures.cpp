@@ -1,7 +1,7 @@
 // What a run measures beside its trajectory: the Lyapunov exponents, the eigenvalues and the section of [run].
 #include <algorithm>
 
-#include "hamflow/run/fitting_methods.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"

@@ -1,10 +1,10 @@
 // [method]: its name, and the options that its family declares.
 #include <algorithm>
 
-#include "hamflow/core/option_names.hpp"
+#include "engine/large_steps.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/methods/step_control.hpp"
-#include "hamflow/run/fitting_methods.hpp"
-#include "hamflow/run/large_steps.hpp"
 #include "method_keys.hpp"
 #include "scenario_reader.hpp"
 

@@ -1,9 +1,9 @@
 // The walk through a parsed document, table by table.
 #pragma once
 
+#include "gas_start.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/walls.hpp"
-#include "hamflow/scenario/gas_start.hpp"
 #include "run_keys.hpp"
 #include "toml_table.hpp"
 

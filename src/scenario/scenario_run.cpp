@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hamflow/run/fitting_methods.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "core/text_place.hpp"
 #include "figure_kinds.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/core/text_place.hpp"
+#include "hamflow/detail/run/formula_options.hpp"
 #include "hamflow/formula/problem_texts.hpp"
-#include "hamflow/run/formula_options.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "option_text.hpp"

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hamflow/problems/support/container.hpp"
-#include "hamflow/run/fitting_methods.hpp"
+#include "gas/container.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 #include "wall_checks.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {

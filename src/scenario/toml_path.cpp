@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "hamflow/core/option_names.hpp"
-#include "hamflow/core/text_place.hpp"
+#include "core/text_place.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "run_keys.hpp"
 #include "toml_depth.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "hamflow/detail/verify/lyapunov.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/section.hpp"
-#include "hamflow/verify/lyapunov.hpp"
 
 namespace hamflow {
 

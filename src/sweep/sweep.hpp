@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/core/archive.hpp"
+#include "hamflow/detail/core/archive.hpp"
+#include "hamflow/detail/run/step_sums.hpp"
+#include "hamflow/detail/run/sweep_shard.hpp"
+#include "hamflow/detail/verify/lyapunov.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/step_sums.hpp"
-#include "hamflow/run/sweep_shard.hpp"
-#include "hamflow/verify/lyapunov.hpp"
 #include "member_names.hpp"
 #include "member_reader.hpp"
 #include "varied.hpp"
@@ -63,7 +63,7 @@ struct MemberRow {
   std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
   /// Whether there is nothing left to be done for it.
   bool is_finished() const { return no_start || (status != Outcome::not_run && status != Outcome::stopped); }
-  /// All of it, for what a sweep goes on from (core/archive.hpp).
+  /// All of it, for what a sweep goes on from (detail/core/archive.hpp).
   template <class Archive>
   void archive(Archive& ar);
 };

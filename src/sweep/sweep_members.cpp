@@ -4,9 +4,9 @@
 #include <limits>
 #include <optional>
 
-#include "hamflow/core/hash.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/stop_question.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "memory.hpp"
 #include "on_threads.hpp"

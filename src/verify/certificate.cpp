@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "energy_size.hpp"
+#include "engine/make_simulation.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "rounding.hpp"
 

@@ -10,12 +10,12 @@
 #include <numbers>
 #include <span>
 
+#include "engine/make_simulation.hpp"
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/make_simulation.hpp"
+#include "hamflow/detail/verify/drift.hpp"
 #include "hamflow/run/walls.hpp"
-#include "hamflow/verify/drift.hpp"
 #include "rounding.hpp"
 #include "step_surroundings.hpp"
 

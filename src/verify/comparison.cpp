@@ -10,7 +10,7 @@
 
 #include "comparison_jobs.hpp"
 #include "hamflow/core/stop_question.hpp"
-#include "hamflow/verify/state_units.hpp"
+#include "hamflow/detail/verify/state_units.hpp"
 #include "state_difference.hpp"
 
 namespace hamflow {

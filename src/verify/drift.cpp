@@ -1,4 +1,4 @@
-#include "hamflow/verify/drift.hpp"
+#include "hamflow/detail/verify/drift.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

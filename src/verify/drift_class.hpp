@@ -1,7 +1,7 @@
 // Private to hamflow_verify: what the statistics of a run and those of an ensemble share.
 #pragma once
 
-#include "hamflow/verify/drift.hpp"
+#include "hamflow/detail/verify/drift.hpp"
 
 namespace hamflow {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "drift_class.hpp"
-#include "hamflow/verify/swings.hpp"
+#include "hamflow/detail/verify/swings.hpp"
 
 namespace hamflow {
 

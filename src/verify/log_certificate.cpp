@@ -10,7 +10,7 @@
 
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/verify/swings.hpp"
+#include "hamflow/detail/verify/swings.hpp"
 #include "rounding.hpp"
 
 namespace hamflow {

@@ -1,4 +1,4 @@
-#include "hamflow/verify/lyapunov.hpp"
+#include "hamflow/detail/verify/lyapunov.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "hamflow/verify/monodromy.hpp"
+#include "monodromy.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

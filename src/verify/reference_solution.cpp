@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/double_constants.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/double_constants.hpp"
+#include "hamflow/detail/verify/state_units.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
-#include "hamflow/verify/state_units.hpp"
 #include "rounding.hpp"
 #include "state_difference.hpp"
 

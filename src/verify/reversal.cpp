@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "hamflow/core/counter_random.hpp"
-#include "hamflow/core/hash.hpp"
-#include "hamflow/verify/reversal_progress.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "reversal_progress.hpp"
 
 namespace hamflow {
 

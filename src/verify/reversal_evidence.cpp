@@ -5,10 +5,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/make_simulation.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "rounding.hpp"

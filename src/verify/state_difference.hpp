@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/detail/verify/magnitude.hpp"
 #include "hamflow/run/simulation.hpp"
-#include "hamflow/verify/magnitude.hpp"
 
 namespace hamflow {
 

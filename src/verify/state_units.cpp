@@ -1,4 +1,4 @@
-#include "hamflow/verify/state_units.hpp"
+#include "hamflow/detail/verify/state_units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "hamflow/verify/swings.hpp"
+#include "hamflow/detail/verify/swings.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "hamflow/verify/turns.hpp"
+#include "hamflow/detail/verify/turns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "hamflow/core/complaint.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "measuring_stopped.hpp"
 
 namespace hamflow {

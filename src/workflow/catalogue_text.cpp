@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/large_steps.hpp"
 #include "figure_kinds.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/formula_options.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/formula/tex.hpp"
-#include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/formula_options.hpp"
-#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "meant.hpp"

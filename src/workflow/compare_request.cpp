@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/large_steps.hpp"
 #include "gas_checks.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/methods/step_control.hpp"
-#include "hamflow/run/fitting_methods.hpp"
-#include "hamflow/run/large_steps.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "method_keys.hpp"

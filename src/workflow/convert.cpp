@@ -8,9 +8,9 @@
 
 #include "converted_text.hpp"
 #include "figure_kinds.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/digits.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "json_text.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"

@@ -8,7 +8,7 @@
 #include "converted_text.hpp"
 #include "csv_file.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/digits.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "json_text.hpp"

@@ -8,11 +8,11 @@
 #include <set>
 #include <span>
 
-#include "hamflow/core/option_names.hpp"
+#include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/formula/problem_texts.hpp"
-#include "hamflow/problems/support/container.hpp"
-#include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "figure.hpp"
-#include "hamflow/run/run_tables.hpp"
+#include "hamflow/detail/run/run_tables.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "hamflow/workflow/rejection_json.hpp"
+#include "hamflow/detail/workflow/rejection_json.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "csv_file.hpp"
-#include "hamflow/core/hash.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/run/gas.hpp"
 #include "json_text.hpp"
 #include "run_keys.hpp"

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "hamflow/core/hash.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "resume.hpp"
 #include "run_keys.hpp"

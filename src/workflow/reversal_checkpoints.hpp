@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "checkpoint.hpp"
+#include "hamflow/detail/verify/turns.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "hamflow/verify/reversal_progress.hpp"
-#include "hamflow/verify/turns.hpp"
+#include "verify/reversal_progress.hpp"
 
 namespace hamflow {
 

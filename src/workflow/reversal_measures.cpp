@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hamflow/verify/magnitude.hpp"
+#include "hamflow/detail/verify/magnitude.hpp"
 
 namespace hamflow {
 

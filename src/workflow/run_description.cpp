@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "gas/container.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/problems/solar_system.hpp"
-#include "hamflow/problems/support/container.hpp"
-#include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 

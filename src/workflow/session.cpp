@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/large_steps.hpp"
 #include "gas_checks.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/methods/step_control.hpp"
-#include "hamflow/run/digits.hpp"
-#include "hamflow/run/large_steps.hpp"
 #include "method_keys.hpp"
 #include "run_description.hpp"
 #include "run_keys.hpp"

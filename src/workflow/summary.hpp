@@ -3,10 +3,10 @@
 
 #include <string_view>
 
+#include "hamflow/detail/verify/turns.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
-#include "hamflow/verify/turns.hpp"
 #include "hamflow/workflow/summary.hpp"
 
 namespace hamflow {

@@ -10,8 +10,8 @@
 
 #include "figure.hpp"
 #include "figure_data.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "parameter_map.hpp"
 #include "run_keys.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "resume.hpp"
 #include "run_description.hpp"
 #include "sweep_table.hpp"

@@ -1,7 +1,7 @@
 // How the summary of a sweep comes about.
 #pragma once
 
-#include "hamflow/workflow/sweep_summary.hpp"
+#include "hamflow/detail/workflow/sweep_summary.hpp"
 #include "sweep.hpp"
 
 namespace hamflow {

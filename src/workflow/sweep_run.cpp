@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "measures/measures.hpp"
 #include "run_keys.hpp"

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/detail/verify/turns.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "hamflow/verify/turns.hpp"
 #include "hamflow/workflow/summary.hpp"
 
 namespace hamflow {

@@ -11,8 +11,8 @@
 
 #include "figure_kinds.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "whole_file.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "../support/allocations.hpp"
 #include "../support/near.hpp"
+#include "engine/step_map_of.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
@@ -14,7 +15,6 @@
 #include "hamflow/problems/support/from_functions.hpp"
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/step_map_of.hpp"
 
 namespace hamflow {
 namespace {

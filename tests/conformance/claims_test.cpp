@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "hamflow/run/splitting_named.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {

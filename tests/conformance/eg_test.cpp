@@ -5,7 +5,7 @@
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
-#include "hamflow/problems/n_body.hpp"
+#include "hamflow/problems/of_any_size/n_body.hpp"
 #include "hamflow/problems/potentials/binomial.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "mutants/examine.hpp"

@@ -1,6 +1,7 @@
 // One step equation, several ways to solve it: with p eliminated, with a cyclic coordinate closed, in (q, p), for fixed
 // and for any number of coordinates, with derivatives by hand and by dual numbers.
 #include "../support/near.hpp"
+#include "hamflow/detail/problems/two_bodies.hpp"
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
@@ -8,12 +9,11 @@
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/magnetic.hpp"
-#include "hamflow/problems/n_body.hpp"
+#include "hamflow/problems/of_any_size/n_body.hpp"
 #include "hamflow/problems/potentials/binomial.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/support/from_functions.hpp"
 #include "hamflow/problems/support/polar.hpp"
-#include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/run/simulation_of.hpp"
 
 namespace hamflow {

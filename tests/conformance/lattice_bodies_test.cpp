@@ -9,12 +9,12 @@
 
 #include "../support/allocations.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
+#include "hamflow/detail/problems/gravity.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/force_gradient.hpp"
 #include "hamflow/methods/force_gradient/chin4a.hpp"
 #include "hamflow/methods/force_gradient/chin4b.hpp"
 #include "hamflow/methods/splitting.hpp"
-#include "hamflow/problems/support/gravity.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "hamflow/core/hash.hpp"
+#include "hamflow/detail/core/hash.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "../support/measured_request.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
@@ -16,15 +17,14 @@
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
-#include "hamflow/problems/fput.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
-#include "hamflow/problems/n_body.hpp"
+#include "hamflow/problems/of_any_size/fput.hpp"
+#include "hamflow/problems/of_any_size/n_body.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow {
 namespace {

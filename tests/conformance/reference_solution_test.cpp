@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <functional>
 
+#include "engine/double_constants.hpp"
 #include "hamflow/core/math.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/double_constants.hpp"
 
 namespace hamflow {
 namespace {

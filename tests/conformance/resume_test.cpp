@@ -9,14 +9,14 @@
 
 #include "../support/measured_request.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
-#include "hamflow/core/archive.hpp"
+#include "hamflow/detail/core/archive.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "../support/allocations.hpp"
 #include "../support/measured_request.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/splitting_named.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {

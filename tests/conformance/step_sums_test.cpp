@@ -1,5 +1,5 @@
 // Sums over every step that a simulation adds by itself have the bits of those that an observer of every step adds.
-#include "hamflow/run/step_sums.hpp"
+#include "hamflow/detail/run/step_sums.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "../support/walled_request.hpp"
+#include "hamflow/detail/verify/lyapunov.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/numerics/elimination.hpp"
-#include "hamflow/verify/lyapunov.hpp"
 #include "hamflow/verify/measure.hpp"
-#include "hamflow/verify/monodromy.hpp"
+#include "verify/monodromy.hpp"
 
 namespace hamflow::test {
 namespace {

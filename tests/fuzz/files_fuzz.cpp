@@ -12,8 +12,7 @@
 #include <iterator>
 
 #include "figure_data.hpp"
-#include "hamflow/core/hash.hpp"
-#include "hamflow/scenario/gas_start.hpp"
+#include "hamflow/detail/core/hash.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "hamflow/workflow/open_run.hpp"
@@ -21,6 +20,7 @@
 #include "hamflow/workflow/run.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "hdf5_text.hpp"
+#include "scenario/gas_start.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "hamflow/formula/bound_model.hpp"
+#include "formula/bound_model.hpp"
 
 namespace {
 

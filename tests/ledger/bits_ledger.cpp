@@ -27,7 +27,7 @@
 #include "bits_cases.hpp"
 #include "c_library.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/core/hash.hpp"
+#include "hamflow/detail/core/hash.hpp"
 
 namespace hamflow::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "hamflow/core/hash.hpp"
+#include "hamflow/detail/core/hash.hpp"
 
 namespace {
 std::atomic<bool> was_called{false};

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "hamflow/numerics/program_lanes.hpp"
+#include "numerics/program_lanes.hpp"
 #include "random_program.hpp"
 
 namespace hamflow {

@@ -7,9 +7,9 @@
 
 #include "catalog_tables.hpp"  // generated
 #include "hamflow/core/math.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/splitting_named.hpp"
 #include "reference_data.hpp"
 
 namespace hamflow::test {

@@ -10,8 +10,8 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow::test {
 namespace {

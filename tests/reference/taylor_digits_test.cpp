@@ -7,8 +7,8 @@
 #include <random>
 
 #include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/digits.hpp"
 
 namespace hamflow::test {
 namespace {

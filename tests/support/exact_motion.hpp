@@ -1,9 +1,9 @@
 // An exact solution in time against the reference flow and against itself.
 #pragma once
 
+#include "engine/reference_flow.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/verify/reference_flow.hpp"
 #include "near.hpp"
 
 namespace hamflow::test {

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "../support/member_family.hpp"
-#include "hamflow/verify/monodromy.hpp"
+#include "verify/monodromy.hpp"
 
 namespace hamflow {
 namespace {

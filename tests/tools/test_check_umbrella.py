@@ -10,12 +10,12 @@ class Umbrella(SmallTree):
     def setUp(self):
         super().setUp()
         self.write("include/hamflow/core/vector.hpp")
-        self.write("include/hamflow/methods/implicit/newton.hpp")
+        self.write("include/hamflow/detail/methods/implicit/newton.hpp")
         self.write("include/hamflow/hamflow.hpp", check_umbrella.expected(self.root))
 
     def test_a_complete_list_passes(self):
         self.assertEqual(check_umbrella.violations(self.root), [])
-        self.assertIn('#include "hamflow/methods/implicit/newton.hpp"', check_umbrella.expected(self.root))
+        self.assertIn('#include "hamflow/detail/methods/implicit/newton.hpp"', check_umbrella.expected(self.root))
         self.assertNotIn("hamflow/hamflow.hpp", check_umbrella.expected(self.root))
 
     def test_a_new_header_is_missed(self):

@@ -3,27 +3,27 @@
 #include <string>
 
 #include "../support/near.hpp"
+#include "engine/any_problem.hpp"
+#include "engine/reference_flow.hpp"
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/detail/problems/gravity.hpp"
 #include "hamflow/methods/dop853.hpp"
 #include "hamflow/methods/taylor.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_relative.hpp"
 #include "hamflow/problems/duffing.hpp"
-#include "hamflow/problems/fput.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/lennard_jones_oscillator.hpp"
+#include "hamflow/problems/of_any_size/fput.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/potentials/power.hpp"
 #include "hamflow/problems/support/from_functions.hpp"
-#include "hamflow/problems/support/gravity.hpp"
 #include "hamflow/problems/support/polar.hpp"
-#include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
 
@@ -347,7 +347,7 @@ TEST(Adaptive, more_digits_are_used) {
   expect_digits_on_kepler<Mp>(Taylor{{.tolerance = 1e-55}}, 50);
 }
 
-/// Behind virtual calls (run/any_problem.hpp) the same bits, and dual numbers pass there, too.
+/// Behind virtual calls (src/engine/any_problem.hpp) the same bits, and dual numbers pass there, too.
 template <class P, class Recipe>
 void expect_same_behind_virtual_calls(const P& problem, const Recipe& recipe) {
   using Any = AnyProblem<double, capabilities_of<P>(), Trace<double>, Dual<double, 1>>;

@@ -8,12 +8,12 @@
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/detail/run/digits.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
-#include "hamflow/run/digits.hpp"
 
 namespace hamflow {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "../support/near.hpp"
+#include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/run/gas.hpp"
-#include "hamflow/run/splitting_named.hpp"
 #include "hamflow/run/state_names.hpp"
 
 namespace hamflow {

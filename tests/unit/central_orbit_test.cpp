@@ -5,14 +5,14 @@
 #include <string>
 
 #include "../support/near.hpp"
+#include "engine/reference_flow.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/detail/problems/central_flow.hpp"
+#include "hamflow/detail/problems/effective_potential.hpp"
 #include "hamflow/problems/potentials/binomial.hpp"
 #include "hamflow/problems/potentials/hooke.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/potentials/linear.hpp"
-#include "hamflow/problems/support/central_flow.hpp"
-#include "hamflow/problems/support/effective_potential.hpp"
-#include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
 namespace {

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "../support/bound_mass.hpp"
-#include "hamflow/core/constrained_motion.hpp"
+#include "core/constrained_motion.hpp"
 #include "hamflow/methods/rattle.hpp"
 #include "hamflow/methods/taylor.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
-#include "hamflow/problems/support/generalised.hpp"
 #include "hamflow/run/simulation_of.hpp"
+#include "problems/generalised.hpp"
 
 namespace hamflow {
 namespace {

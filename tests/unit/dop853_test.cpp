@@ -6,10 +6,10 @@
 #include <string>
 
 #include "../support/near.hpp"
+#include "engine/reference_flow.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
-#include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
 namespace {

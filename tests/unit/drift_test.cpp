@@ -1,5 +1,5 @@
 // The drift statistics on series whose class is known.
-#include "hamflow/verify/drift.hpp"
+#include "hamflow/detail/verify/drift.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,11 +1,11 @@
 // Elliptic integrals and Jacobi's functions against printed values, series, identities, limits, and the differential
 // equations that define them.
-#include "hamflow/numerics/elliptic.hpp"
+#include "hamflow/detail/numerics/elliptic.hpp"
 
 #include "../support/near.hpp"
+#include "engine/reference_flow.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/derivatives.hpp"
-#include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
 namespace {

@@ -1,7 +1,7 @@
 // Exact solutions in time: pendulum, harmonic oscillator, free fall, against the reference flow.
 #include "../support/exact_motion.hpp"
 #include "hamflow/core/counter_random.hpp"
-#include "hamflow/numerics/elliptic.hpp"
+#include "hamflow/detail/numerics/elliptic.hpp"
 #include "hamflow/problems/free_fall.hpp"
 #include "hamflow/problems/harmonic.hpp"
 #include "hamflow/problems/pendulum.hpp"

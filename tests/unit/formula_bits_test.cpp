@@ -5,14 +5,14 @@
 #include <random>
 
 #include "../support/near.hpp"
+#include "formula/bound_model.hpp"
 #include "hamflow/core/derivatives.hpp"
-#include "hamflow/formula/bound_model.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/duffing.hpp"
-#include "hamflow/problems/fput.hpp"
 #include "hamflow/problems/harmonic.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/lennard_jones_oscillator.hpp"
+#include "hamflow/problems/of_any_size/fput.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/problems/potentials/binomial.hpp"
 #include "hamflow/problems/potentials/hooke.hpp"

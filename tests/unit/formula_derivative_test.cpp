@@ -3,7 +3,7 @@
 #include <random>
 
 #include "../support/near.hpp"
-#include "hamflow/formula/bound_model.hpp"
+#include "formula/bound_model.hpp"
 
 namespace hamflow {
 namespace {

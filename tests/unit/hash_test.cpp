@@ -1,5 +1,5 @@
 // The hash of stored bits.
-#include "hamflow/core/hash.hpp"
+#include "hamflow/detail/core/hash.hpp"
 
 #include <gtest/gtest.h>
 

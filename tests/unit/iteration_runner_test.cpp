@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "../support/measured_request.hpp"
+#include "engine/stages_in_lanes.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation.hpp"
-#include "hamflow/run/stages_in_lanes.hpp"
 
 namespace hamflow {
 namespace {

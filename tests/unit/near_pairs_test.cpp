@@ -6,13 +6,13 @@
 #include <limits>
 #include <span>
 
+#include "gas/gas_system.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/core/counter_random.hpp"
-#include "hamflow/core/thread_team.hpp"
-#include "hamflow/methods/pair_sums.hpp"
+#include "hamflow/detail/core/thread_team.hpp"
+#include "hamflow/detail/methods/pair_sums.hpp"
 #include "hamflow/problems/pairs/lennard_jones.hpp"
-#include "hamflow/problems/support/gas_system.hpp"
 
 namespace hamflow::test {
 namespace {

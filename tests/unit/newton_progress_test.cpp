@@ -1,5 +1,5 @@
 // The decisions of an iteration from the sizes of its corrections alone.
-#include "hamflow/numerics/newton_progress.hpp"
+#include "hamflow/detail/numerics/newton_progress.hpp"
 
 #include <gtest/gtest.h>
 

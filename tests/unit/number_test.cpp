@@ -5,7 +5,7 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
-#include "hamflow/core/step_clock.hpp"
+#include "hamflow/detail/core/step_clock.hpp"
 
 namespace hamflow {
 namespace {

@@ -1,9 +1,9 @@
 // Gauss rules and small linear systems.
 #include "../support/near.hpp"
 #include "hamflow/core/counter_random.hpp"
-#include "hamflow/numerics/dense.hpp"
+#include "hamflow/detail/numerics/dense.hpp"
+#include "hamflow/detail/numerics/lu_factors.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"
-#include "hamflow/numerics/lu_factors.hpp"
 
 namespace hamflow {
 namespace {

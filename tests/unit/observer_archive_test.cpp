@@ -5,7 +5,7 @@
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/verify/certificate.hpp"
-#include "hamflow/verify/monodromy.hpp"
+#include "verify/monodromy.hpp"
 
 namespace hamflow {
 namespace {

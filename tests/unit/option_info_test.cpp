@@ -1,5 +1,5 @@
 // Declared options: what is allowed, what is refused and how, defaults and TOML texts.
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "gas/gas_system.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/dual.hpp"
 #include "hamflow/problems/pairs/lennard_jones.hpp"
 #include "hamflow/problems/pairs/newton.hpp"
-#include "hamflow/problems/support/gas_system.hpp"
 
 namespace hamflow::test {
 namespace {

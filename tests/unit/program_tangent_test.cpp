@@ -1,12 +1,12 @@
 // The derivative of a program against differences of the program itself, and what cannot be differentiated.
-#include "hamflow/numerics/program_tangent.hpp"
+#include "numerics/program_tangent.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "hamflow/run/recorded_tangents.hpp"
+#include "engine/recorded_tangents.hpp"
 
 namespace hamflow {
 namespace {

@@ -1,5 +1,5 @@
 // Numbers whose count is chosen when they are made.
-#include "hamflow/core/short_array.hpp"
+#include "hamflow/detail/core/short_array.hpp"
 
 namespace hamflow {
 namespace {

@@ -1,12 +1,12 @@
 // Divided differences without cancellation, against differences in twice the digits.
-#include "hamflow/numerics/slope.hpp"
+#include "hamflow/detail/numerics/slope.hpp"
 
 #include <functional>
 #include <string>
 
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/quad.hpp"
-#include "hamflow/methods/implicit/recorded_energy.hpp"
+#include "hamflow/detail/methods/implicit/recorded_energy.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 
 namespace hamflow {

@@ -1,5 +1,5 @@
 // Reversible steps of varying length: against their definition, their order, the way back, and broken recurrences.
-#include "hamflow/methods/step_density.hpp"
+#include "hamflow/detail/methods/step_density.hpp"
 
 #include <gtest/gtest.h>
 

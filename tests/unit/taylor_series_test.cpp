@@ -1,6 +1,6 @@
 // The recurrences of the Taylor coefficients against Cauchy's integral formula, which knows nothing of them, and the
 // recording against the rules it promises.
-#include "hamflow/numerics/taylor_series.hpp"
+#include "hamflow/detail/numerics/taylor_series.hpp"
 
 #include <complex>
 #include <functional>

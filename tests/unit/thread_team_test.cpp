@@ -1,6 +1,6 @@
 // Every block of every call is done once, by more threads than there are processors. HAMFLOW_TEAM_CALLS asks for more
 // calls; `./dev sanitize --threads` makes 10^6 of them under the thread sanitizer.
-#include "hamflow/core/thread_team.hpp"
+#include "hamflow/detail/core/thread_team.hpp"
 
 #include <gtest/gtest.h>
 

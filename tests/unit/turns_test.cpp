@@ -1,5 +1,5 @@
 // Long steps are found from the turns of coordinates, and from nothing that only looks like turns.
-#include "hamflow/verify/turns.hpp"
+#include "hamflow/detail/verify/turns.hpp"
 
 #include <gtest/gtest.h>
 

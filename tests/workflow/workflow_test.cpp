@@ -11,7 +11,6 @@
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/value.hpp"
-#include "hamflow/verify/monodromy.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
@@ -19,6 +18,7 @@
 #include "hamflow/workflow/session.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "run_file.hpp"
+#include "verify/monodromy.hpp"
 
 namespace hamflow {
 namespace {

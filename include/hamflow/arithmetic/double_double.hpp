@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hamflow/arithmetic/extended.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/detail/arithmetic/extended.hpp"
 
 namespace hamflow {
 

@@ -8,8 +8,8 @@
 
 #include <utility>
 
-#include "hamflow/arithmetic/extended.hpp"
-#include "hamflow/core/archive.hpp"
+#include "hamflow/detail/arithmetic/extended.hpp"
+#include "hamflow/detail/core/archive.hpp"
 
 namespace hamflow {
 

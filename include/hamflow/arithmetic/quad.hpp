@@ -1,7 +1,7 @@
 // Quadruple precision, IEEE binary128, about 34 digits, by the compiler and libquadmath.
 #pragma once
 
-#include "hamflow/arithmetic/extended.hpp"
+#include "hamflow/detail/arithmetic/extended.hpp"
 
 // Declared here and not by <quadmath.h>, which only GCC finds; both compilers link GCC's library.
 extern "C" {

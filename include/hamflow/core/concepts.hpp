@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "hamflow/core/dual.hpp"
-#include "hamflow/core/optional_functions.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/core/optional_functions.hpp"
 
 namespace hamflow {
 

@@ -10,7 +10,7 @@
 
 #include "hamflow/core/concepts.hpp"
 #include "hamflow/core/derivatives.hpp"
-#include "hamflow/core/pool.hpp"
+#include "hamflow/detail/core/pool.hpp"
 
 namespace hamflow {
 

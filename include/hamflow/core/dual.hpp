@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "hamflow/core/math.hpp"
-#include "hamflow/core/operation.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/core/operation.hpp"
 
 namespace hamflow {
 
@@ -71,7 +71,7 @@ constexpr Dual<T, N> chain(const Dual<T, N>& x, const T& value, const T& factor)
   for (std::size_t k = 0; k < N; ++k) y.slope[k] = factor * x.slope[k];
   return y;
 }
-/// The same by the row of a function (core/operation.hpp).
+/// The same by the row of a function (detail/core/operation.hpp).
 template <class T, std::size_t N>
 Dual<T, N> follow_rule(Operation function, const Dual<T, N>& x, const T& value) {
   const DerivativeRule<T> rule = derivative_rule(function, x.value, value, T(1));

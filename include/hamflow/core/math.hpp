@@ -56,7 +56,7 @@ S whole_power(const S& x, int n) {
   return n % 2 == 1 ? S(even * x) : even;
 }
 
-/// a > 0 ? b : c. Recordings have it without a branch (core/tape.hpp).
+/// a > 0 ? b : c. Recordings have it without a branch (detail/core/tape.hpp).
 template <class S>
 S choose(const S& a, const S& b, const S& c) {
   return S(0) < a ? b : c;

@@ -38,7 +38,7 @@ struct MethodInfo {
   bool own_substeps = false;  // a step is made of sub-steps whose lengths the method chooses
   bool halves_steps = false;  // a step that does not converge is replaced by two half steps
   bool carries_copy = false;  // a second copy of the state goes with the run: its properties are those of both
-  bool varies_steps = false;  // steps of varying length, and time a part of the state (methods/step_density.hpp)
+  bool varies_steps = false;  // steps of varying length, and time a part of the state (detail/methods/step_density.hpp)
   bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
 };
 

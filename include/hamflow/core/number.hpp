@@ -1,5 +1,5 @@
 // **Numbers as people write them**: "0.1", "1/3", "2*pi/100", read in any arithmetic to its full precision. The text is
-// read once, without an arithmetic (core/syntax.hpp); its operations are then carried out in R.
+// read once, without an arithmetic (detail/core/syntax.hpp); its operations are then carried out in R.
 //
 // Every error has the form
 //     found "2*pi/0", column 5: 2*pi divided by 0; allowed a divisor other than 0
@@ -17,8 +17,8 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/math.hpp"
-#include "hamflow/core/operation.hpp"
-#include "hamflow/core/syntax.hpp"
+#include "hamflow/detail/core/operation.hpp"
+#include "hamflow/detail/core/syntax.hpp"
 
 namespace hamflow {
 

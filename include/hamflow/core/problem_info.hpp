@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "hamflow/core/number.hpp"
-#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 namespace hamflow {
 
@@ -92,7 +92,7 @@ struct ProblemInfo {
   std::vector<std::string> example_choices{};  // keys that a scenario has to give; without them `new` takes this entry
   /// The key of `variant` whose value names the chart, that is, the coordinates. Entries that differ in it alone are
   /// one motion; all but the one in the reference chart have to_reference and from_reference
-  /// (core/optional_functions.hpp). Empty: there are no other coordinates.
+  /// (detail/core/optional_functions.hpp). Empty: there are no other coordinates.
   std::string chart_key{};
   /// The key of `variant` that takes "formula", too: the choice is then typed (run/catalog.hpp, typed_examples).
   std::string typed_choice{};
@@ -113,7 +113,7 @@ struct ProblemInfo {
   std::vector<std::string> default_p{};
   /// The key that moves the centre of mass of a start to the origin and to rest (its words are those of
   /// StartFrames), with its default; a start by `initial` stays as it is given unless the key says otherwise.
-  /// Without a name there is none. A problem that has it has to_barycentre() (core/optional_functions.hpp).
+  /// Without a name there is none. A problem that has it has to_barycentre() (detail/core/optional_functions.hpp).
   OptionInfo frame{};
   /// The name of the key that gives the start its velocities where `initial` is not given; empty: there is none.
   OptionInfo velocities{};

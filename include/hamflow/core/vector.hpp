@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "hamflow/core/pool.hpp"
-#include "hamflow/core/short_array.hpp"
+#include "hamflow/detail/core/pool.hpp"
+#include "hamflow/detail/core/short_array.hpp"
 
 namespace hamflow {
 

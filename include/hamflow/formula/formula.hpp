@@ -4,7 +4,7 @@
 //     let r = sqrt(x^2 + y^2), u = 1/r in ...     names for what occurs several times
 //     sum(i, 1, n - 1, (x[i+1] - x[i])^2)         sums; an index is a whole expression of i, numbers, parameters
 // A text is read and nothing is run: it reaches the values that it names. Every error says at which column it is, what
-// was found, what is allowed, and the nearest name (core/text_place.hpp).
+// was found, what is allowed, and the nearest name (src/core/text_place.hpp).
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hamflow/formula/code.hpp"
+#include "hamflow/detail/formula/code.hpp"
 
 namespace hamflow {
 

@@ -14,7 +14,7 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/formula/structure.hpp"
+#include "hamflow/detail/formula/structure.hpp"
 
 namespace hamflow {
 

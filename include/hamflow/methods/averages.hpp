@@ -1,14 +1,15 @@
-// Implicit methods whose unknowns are averages of the motion along the step (methods/implicit/average_table.hpp):
-// energy-conserving elements of any degree, by any iteration, and Gauss collocation in stages.
+// Implicit methods whose unknowns are averages of the motion along the step
+// (detail/methods/implicit/average_table.hpp): energy-conserving elements of any degree, by any iteration, and Gauss
+// collocation in stages.
 //     simulate(problem, CgOfDegree{{.degree = 3, .quadrature = 6}}, q, p, h);
 //     simulate(problem, Gauss{{.stages = 4, .iteration = Iteration::fixed_point}}, q, p, h);
 #pragma once
 
-#include "hamflow/core/capability.hpp"
-#include "hamflow/methods/implicit/averages_cyclic.hpp"
-#include "hamflow/methods/implicit/averages_general.hpp"
-#include "hamflow/methods/implicit/averages_natural.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/core/capability.hpp"
+#include "hamflow/detail/methods/implicit/averages_cyclic.hpp"
+#include "hamflow/detail/methods/implicit/averages_general.hpp"
+#include "hamflow/detail/methods/implicit/averages_natural.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
 
 namespace hamflow {
 

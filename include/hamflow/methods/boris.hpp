@@ -8,11 +8,11 @@
 // would have to be reversed too [Sonnleitner2010, footnote 21].
 #pragma once
 
-#include "hamflow/core/capability.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/detail/core/capability.hpp"
 
 namespace hamflow {
 

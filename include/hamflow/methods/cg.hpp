@@ -7,12 +7,12 @@
 // compensation.
 #pragma once
 
-#include "hamflow/core/capability.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/methods/implicit/cyclic.hpp"
-#include "hamflow/methods/implicit/general.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
-#include "hamflow/methods/implicit/natural.hpp"
+#include "hamflow/detail/core/capability.hpp"
+#include "hamflow/detail/methods/implicit/cyclic.hpp"
+#include "hamflow/detail/methods/implicit/general.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/natural.hpp"
 
 namespace hamflow {
 

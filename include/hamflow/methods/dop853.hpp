@@ -19,11 +19,11 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/stop_question.hpp"
-#include "hamflow/methods/adaptive_options.hpp"
-#include "hamflow/methods/dop853_tableau.hpp"
-#include "hamflow/methods/substeps.hpp"
+#include "hamflow/detail/core/step_clock.hpp"
+#include "hamflow/detail/methods/adaptive_options.hpp"
+#include "hamflow/detail/methods/dop853_tableau.hpp"
+#include "hamflow/detail/methods/substeps.hpp"
 
 namespace hamflow {
 

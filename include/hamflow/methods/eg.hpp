@@ -11,11 +11,11 @@
 #include <memory>
 #include <vector>
 
-#include "hamflow/core/capability.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
-#include "hamflow/methods/implicit/large_systems.hpp"
-#include "hamflow/methods/implicit/radial_pair.hpp"
-#include "hamflow/methods/implicit/target.hpp"
+#include "hamflow/detail/core/capability.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/large_systems.hpp"
+#include "hamflow/detail/methods/implicit/radial_pair.hpp"
+#include "hamflow/detail/methods/implicit/target.hpp"
 
 namespace hamflow {
 

@@ -2,14 +2,14 @@
 //     DH = g + c u,   g = grad H((z0 + z1)/2),   u = z1 - z0,   c = [H(z1) - H(z0) - g.u]/|u|^2,   c = 0 at u = 0.
 // Order 2, symmetric, conserves H whatever it is; not symplectic. c u is of the size |u|^2, and H(z1) - H(z0) - g.u of
 // the size |u|^3: formed from two energies it would round by epsilon |H|, and c u by epsilon |H|/|u|, which near an
-// equilibrium is more than the motion. The change of H comes from its recording (numerics/slope.hpp), so that c u
-// rounds by epsilon |g| for any u.
+// equilibrium is more than the motion. The change of H comes from its recording (detail/numerics/slope.hpp), so that c
+// u rounds by epsilon |g| for any u.
 #pragma once
 
-#include "hamflow/methods/implicit/discrete_gradient.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
-#include "hamflow/methods/implicit/large_systems.hpp"
-#include "hamflow/methods/implicit/recorded_energy.hpp"
+#include "hamflow/detail/methods/implicit/discrete_gradient.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/large_systems.hpp"
+#include "hamflow/detail/methods/implicit/recorded_energy.hpp"
 
 namespace hamflow {
 

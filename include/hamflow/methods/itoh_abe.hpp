@@ -1,15 +1,15 @@
 // The discrete gradient of coordinate increments: coordinates change one after the other, q1 .. qn, then p1 .. pn, and
 //     DH_i = [H(z1_1 .. z1_i, z0_(i+1) ..) - H(z1_1 .. z1_(i-1), z0_i ..)]/(z1_i - z0_i).   [ItohAbe1988]
 // Order 1, conserves H whatever it is, no derivative of H stands in the map; not symmetric. The quotient comes from a
-// recording of H (numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a coordinate does
-// not move. Newton takes the exact tangent: dDH_i/dz_j, j < i, is the same quotient of dH/dz_j, and dDH_i/dz1_i is
-// found by dual numbers through the quotient.
+// recording of H (detail/numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a
+// coordinate does not move. Newton takes the exact tangent: dDH_i/dz_j, j < i, is the same quotient of dH/dz_j, and
+// dDH_i/dz1_i is found by dual numbers through the quotient.
 #pragma once
 
-#include "hamflow/methods/implicit/discrete_gradient.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
-#include "hamflow/methods/implicit/large_systems.hpp"
-#include "hamflow/methods/implicit/recorded_energy.hpp"
+#include "hamflow/detail/methods/implicit/discrete_gradient.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/large_systems.hpp"
+#include "hamflow/detail/methods/implicit/recorded_energy.hpp"
 
 namespace hamflow {
 

@@ -1,16 +1,16 @@
 // The Lobatto pair IIIA-IIIB for any H(q, p): order 2 s - 2, symplectic, symmetric.   [HLW2006, Sect. II.2.2, IV.2]
 //     K_i = h b_i H_p(Q_i, P_i),   L_i = -h b_i H_q(Q_i, P_i),   z1 = z0 + sum_i (K_i, L_i),
 //     Q_i = q0 + sum_j (1/2 + nu_ij) K_j,   P_i = p0 + sum_j (1/2 - nu_ji) L_j.
-// One matrix nu for both (numerics/lobatto.hpp): symplectic however it is rounded. Q_1 = q0, Q_s = q1; two stages are
-// Verlet, p first, for H = T(p) + V(q). Newton runs in all K_i and L_i with the exact tangent.
+// One matrix nu for both (detail/numerics/lobatto.hpp): symplectic however it is rounded. Q_1 = q0, Q_s = q1; two
+// stages are Verlet, p first, for H = T(p) + V(q). Newton runs in all K_i and L_i with the exact tangent.
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
-#include "hamflow/methods/implicit/large_systems.hpp"
-#include "hamflow/methods/implicit/target.hpp"
-#include "hamflow/methods/lobatto_options.hpp"
-#include "hamflow/numerics/lobatto.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/large_systems.hpp"
+#include "hamflow/detail/methods/implicit/target.hpp"
+#include "hamflow/detail/methods/lobatto_options.hpp"
+#include "hamflow/detail/numerics/lobatto.hpp"
 
 namespace hamflow {
 

@@ -5,10 +5,10 @@
 // Newton ends at the rounding of g, so that |g| and |g' M^-1 p| stay there however long the run is.
 #pragma once
 
-#include "hamflow/core/capability.hpp"
-#include "hamflow/core/pool.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
-#include "hamflow/methods/implicit/rattle_equations.hpp"
+#include "hamflow/detail/core/capability.hpp"
+#include "hamflow/detail/core/pool.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/rattle_equations.hpp"
 
 namespace hamflow {
 

@@ -13,12 +13,12 @@
 // `typed` (compiled with every problem of the catalogue in double, for what is bound by its step; by default it runs
 // behind virtual calls there), `recorded` (a step in double is a straight line, which is recorded and compiled), and
 // `faces`, the sets of capabilities for which it is compiled there, the preferred one first
-// (src/catalog/visit_erased.hpp).
+// (src/steps/visit_erased.hpp).
 #pragma once
 
 #include <concepts>
 
-#include "hamflow/core/capability.hpp"
+#include "hamflow/detail/core/capability.hpp"
 
 namespace hamflow {
 
@@ -66,7 +66,7 @@ constexpr bool remembers_positions_alone() {
   return requires { Stepper::remembers_positions_alone; };
 }
 
-/// Whether a step in double can be recorded (run/recorded_step.hpp).
+/// Whether a step in double can be recorded (src/engine/recorded_step.hpp).
 template <class M>
 constexpr bool is_recorded() {
   if constexpr (requires { M::recorded; }) {

@@ -19,7 +19,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/methods/pair_sums.hpp"
+#include "hamflow/detail/methods/pair_sums.hpp"
 #include "hamflow/methods/tables.hpp"
 
 namespace hamflow {

@@ -1,5 +1,5 @@
 // Which steps a method takes, as options and claims say it. The reversible steps of varying length are those of
-// methods/step_density.hpp.
+// detail/methods/step_density.hpp.
 #pragma once
 
 #include <string>

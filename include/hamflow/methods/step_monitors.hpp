@@ -1,12 +1,12 @@
-// The lengths that steps should have, up to a factor (methods/step_density.hpp).
+// The lengths that steps should have, up to a factor (detail/methods/step_density.hpp).
 //     simulation.vary_steps(arclength_monitor(problem));
 #pragma once
 
 #include <limits>
 
 #include "hamflow/core/derivatives.hpp"
+#include "hamflow/detail/methods/step_density.hpp"
 #include "hamflow/methods/step_control.hpp"
-#include "hamflow/methods/step_density.hpp"
 
 namespace hamflow {
 
@@ -93,8 +93,8 @@ StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem) {
 }
 
 /// **distance**: sigma = d^(3/2), d the distance from the centre or of the nearest two bodies (distance_rate in
-/// core/optional_functions.hpp). By Kepler's third law the time that a motion at distance d takes is proportional to
-/// d^(3/2): an encounter of two bodies has as many steps, however close it is.
+/// detail/core/optional_functions.hpp). By Kepler's third law the time that a motion at distance d takes is
+/// proportional to d^(3/2): an encounter of two bodies has as many steps, however close it is.
 template <class P>
 requires HasDistanceRate<P> StepMonitor<RealOf<P>, P::dimension> distance_monitor(const P& problem) {
   using R = RealOf<P>;

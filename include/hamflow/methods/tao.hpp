@@ -19,8 +19,8 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/step_clock.hpp"
 
 namespace hamflow {
 
@@ -92,7 +92,7 @@ class TaoStep {
     if (begun_) copy_.arithmetic.momentum.add(copy_.p[i], change);
     kept_ = false;
   }
-  /// The clock of the run goes on in both copies (core/step_clock.hpp).
+  /// The clock of the run goes on in both copies (detail/core/step_clock.hpp).
   void set_clock(const State& z) {
     for (std::size_t i = 1; begun_ && i <= clock_coordinates; ++i) copy_.q[z.q.size() - i] = z.q[z.q.size() - i];
   }

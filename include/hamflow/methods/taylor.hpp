@@ -32,12 +32,12 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/stop_question.hpp"
-#include "hamflow/methods/adaptive_options.hpp"
-#include "hamflow/methods/substeps.hpp"
-#include "hamflow/methods/tape_of_motion.hpp"
-#include "hamflow/numerics/taylor_series.hpp"
+#include "hamflow/detail/core/step_clock.hpp"
+#include "hamflow/detail/methods/adaptive_options.hpp"
+#include "hamflow/detail/methods/substeps.hpp"
+#include "hamflow/detail/methods/tape_of_motion.hpp"
+#include "hamflow/detail/numerics/taylor_series.hpp"
 
 namespace hamflow {
 

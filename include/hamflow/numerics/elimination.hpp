@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hamflow/core/math.hpp"
-#include "hamflow/core/pool.hpp"
+#include "hamflow/detail/core/pool.hpp"
 
 namespace hamflow::detail {
 

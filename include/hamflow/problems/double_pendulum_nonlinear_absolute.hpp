@@ -1,7 +1,7 @@
 // The nonlinear double pendulum in absolute angles.   [Gross1999, ch. 3]
 #pragma once
 
-#include "hamflow/problems/support/double_pendulum.hpp"
+#include "hamflow/detail/problems/double_pendulum.hpp"
 
 namespace hamflow {
 

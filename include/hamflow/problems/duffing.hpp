@@ -9,8 +9,8 @@
 #include <string>
 
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/problems/support/duffing_exact.hpp"
-#include "hamflow/problems/support/one_dimensional.hpp"
+#include "hamflow/detail/problems/duffing_exact.hpp"
+#include "hamflow/detail/problems/one_dimensional.hpp"
 
 namespace hamflow {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/problems/support/one_dimensional.hpp"
+#include "hamflow/detail/problems/one_dimensional.hpp"
 
 namespace hamflow {
 

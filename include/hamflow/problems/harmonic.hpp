@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/problems/support/linear_oscillator.hpp"
-#include "hamflow/problems/support/one_dimensional.hpp"
+#include "hamflow/detail/problems/linear_oscillator.hpp"
+#include "hamflow/detail/problems/one_dimensional.hpp"
 
 namespace hamflow {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/problems/support/one_dimensional.hpp"
+#include "hamflow/detail/problems/one_dimensional.hpp"
 
 namespace hamflow {
 

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/numerics/elliptic.hpp"
-#include "hamflow/problems/support/one_dimensional.hpp"
+#include "hamflow/detail/numerics/elliptic.hpp"
+#include "hamflow/detail/problems/one_dimensional.hpp"
 
 namespace hamflow {
 

@@ -2,7 +2,7 @@
 // [HLW2006, Sect. I.2.4; data of September 5, 1994, from Ahnerts Kalender fuer Sternfreunde]
 #pragma once
 
-#include "hamflow/problems/support/gravity.hpp"
+#include "hamflow/detail/problems/gravity.hpp"
 
 namespace hamflow {
 

@@ -14,10 +14,10 @@
 
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/formula/structure.hpp"
-#include "hamflow/run/method_family.hpp"
+#include "hamflow/detail/formula/structure.hpp"
+#include "hamflow/detail/run/method_family.hpp"
+#include "hamflow/detail/run/step_map.hpp"
 #include "hamflow/run/simulation.hpp"
-#include "hamflow/run/step_map.hpp"
 #include "hamflow/run/walls.hpp"
 
 namespace hamflow {
@@ -96,7 +96,7 @@ struct ProblemEntry {
   /// Whether the problem has what the method needs.
   std::function<bool(const MethodSpec&)> accepts;
   bool has_pairwise_forces = false;  // on the lattice several threads may compute them
-  /// What holds the particles of which the problem consists, a name of problems/support/container.hpp; empty: it does
+  /// What holds the particles of which the problem consists, a name of src/gas/container.hpp; empty: it does
   /// not consist of particles, and `particles` is empty.
   std::string container{};
   std::function<ParticleFacts(const Texts& parameters)> particles{};

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "hamflow/numerics/lane_set.hpp"
+#include "hamflow/detail/numerics/lane_set.hpp"
+#include "hamflow/detail/run/step_map.hpp"
+#include "hamflow/detail/run/step_sums.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/step_map.hpp"
-#include "hamflow/run/step_sums.hpp"
 
 namespace hamflow {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "hamflow/core/archive.hpp"
+#include "hamflow/detail/core/archive.hpp"
 #include "hamflow/run/simulation.hpp"
 
 namespace hamflow {
@@ -31,7 +31,7 @@ class Observer {
   virtual std::span<const std::string> times(std::int64_t /*step*/) const { return {}; }
 
   /// What was seen so far, for a checkpoint, and back: everything that decides what the rest of the run makes of it.
-  /// One list of fields serves both directions (core/archive.hpp):
+  /// One list of fields serves both directions (detail/core/archive.hpp):
   ///     void archive(Writer& ar) override { fields(ar); }
   ///     void archive(Reader& ar) override { fields(ar); }
   /// An observation that is due only because the run ends is left out, so that a longer run can go on from there. The

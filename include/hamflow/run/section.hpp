@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/run/expression_in_digits.hpp"
+#include "hamflow/detail/run/expression_in_digits.hpp"
+#include "hamflow/detail/run/state_expression.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/state_expression.hpp"
 
 namespace hamflow {
 

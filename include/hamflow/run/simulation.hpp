@@ -122,7 +122,7 @@ class Simulation {
   virtual MethodInfo method() const = 0;
   /// After a failure: what went wrong in the step after the present one, in a sentence.
   virtual std::string failure() const = 0;
-  /// Whether steps have been recorded, and many of them run as one compiled loop (run/recorded_simulation.hpp).
+  /// Whether steps have been recorded, and many of them run as one compiled loop (src/engine/recorded_simulation.hpp).
   virtual bool is_recorded() const { return false; }
   /// Of each hard wall, since the start.
   virtual std::vector<WallCount> wall_counts() const { return {}; }
@@ -130,7 +130,7 @@ class Simulation {
   virtual void tell_bounces(std::function<void(const Bounce&)> /*told*/) {}
 
   /// From here on advance() adds the values of expressions behind each of its steps to sums, as observers of every step
-  /// would (run/step_sums.hpp), and faster. None: no longer. A copy adds nothing.
+  /// would (detail/run/step_sums.hpp), and faster. None: no longer. A copy adds nothing.
   /// @return false: this simulation does not
   virtual bool add_to_sums(std::span<const NamedExpression> /*summed*/, std::span<StepSum> /*sums*/) { return false; }
 

@@ -8,10 +8,10 @@
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/detail/run/probe.hpp"
+#include "hamflow/detail/run/simulation_state.hpp"
 #include "hamflow/methods/recipe.hpp"
 #include "hamflow/methods/step_control.hpp"
-#include "hamflow/run/probe.hpp"
-#include "hamflow/run/simulation_state.hpp"
 
 namespace hamflow {
 
@@ -50,7 +50,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
       : State(std::move(problem), q, p, h, arithmetic, t0), method_(std::move(method)) {}
 
   /// Reversible steps of varying length from here on, of a symmetric method; the first has the length of the equal ones
-  /// (methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
+  /// (detail/methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
   [[gnu::cold]] void vary_steps(typename State::Monitor monitor) {
     State::begin_varying(std::move(monitor));
     if constexpr (requires { method_.take_any_steps(); }) method_.take_any_steps();

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/math.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/core/option_info.hpp"
+#include "hamflow/detail/core/option_info.hpp"
 
 namespace hamflow {
 
@@ -45,7 +46,18 @@ struct WallSide {
   int side = 1;  // -1: the wall below, 1: that above
   R at{};
   /// How far beyond the wall q is; negative: inside.
-  R beyond(const R& q) const { return side > 0 ? R(q - at) : R(at - q); }
+  /// @tparam S R, or a recording of it
+  template <class S>
+  S beyond(const S& q) const {
+    return side > 0 ? S(q - S(at)) : S(S(at) - q);
+  }
+  /// Above 0 where the motion may have been beyond the wall between two points that are inside: one that turns once
+  /// between them has not been where it would still be inside after two steps of the same velocity from either end.
+  /// @param ahead, behind the change of the coordinate in two steps, from the first point and to the second one
+  template <class S>
+  S beyond_between(const S& q0, const S& ahead, const S& q1, const S& behind) const {
+    return -larger(S(-beyond(S(q0 + ahead))), S(-beyond(S(q1 - behind))));
+  }
 };
 template <class R>
 std::vector<WallSide<R>> wall_sides(const Walls& walls) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hamflow/core/complaint.hpp"
-#include "hamflow/problems/support/two_bodies.hpp"
+#include "hamflow/detail/problems/two_bodies.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/section.hpp"
 

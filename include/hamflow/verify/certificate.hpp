@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "hamflow/detail/verify/drift.hpp"
+#include "hamflow/detail/verify/state_units.hpp"
+#include "hamflow/detail/verify/swings.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/verify/drift.hpp"
 #include "hamflow/verify/long_number.hpp"
-#include "hamflow/verify/state_units.hpp"
-#include "hamflow/verify/swings.hpp"
 
 namespace hamflow {
 

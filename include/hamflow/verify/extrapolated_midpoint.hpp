@@ -18,9 +18,9 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/stop_question.hpp"
-#include "hamflow/methods/substeps.hpp"
+#include "hamflow/detail/core/step_clock.hpp"
+#include "hamflow/detail/methods/substeps.hpp"
 
 namespace hamflow {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "hamflow/verify/drift.hpp"
+#include "hamflow/detail/verify/drift.hpp"
 
 namespace hamflow {
 

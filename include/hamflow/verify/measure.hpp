@@ -20,9 +20,9 @@
 #include <string_view>
 #include <vector>
 
+#include "hamflow/detail/run/step_map.hpp"
+#include "hamflow/detail/verify/drift.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/step_map.hpp"
-#include "hamflow/verify/drift.hpp"
 
 namespace hamflow {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/detail/run/step_map.hpp"
+#include "hamflow/detail/verify/magnitude.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/run/step_map.hpp"
-#include "hamflow/verify/magnitude.hpp"
 
 namespace hamflow {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/run/run_tables.hpp"
+#include "hamflow/detail/run/run_tables.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {

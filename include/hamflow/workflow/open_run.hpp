@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "hamflow/run/run_tables.hpp"
+#include "hamflow/detail/run/run_tables.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {

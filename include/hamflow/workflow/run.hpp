@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/detail/run/run_tables.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/run_tables.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/workflow/summary.hpp"

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "hamflow/detail/verify/turns.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "hamflow/verify/turns.hpp"
 #include "hamflow/workflow/summary.hpp"
 
 namespace hamflow {

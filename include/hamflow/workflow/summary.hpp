@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hamflow/core/method_info.hpp"
-#include "hamflow/problems/support/two_bodies.hpp"
+#include "hamflow/detail/problems/two_bodies.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/value.hpp"
 #include "hamflow/verify/certificate.hpp"

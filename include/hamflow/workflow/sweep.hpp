@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "hamflow/core/table.hpp"
-#include "hamflow/run/sweep_shard.hpp"
+#include "hamflow/detail/run/sweep_shard.hpp"
+#include "hamflow/detail/workflow/sweep_summary.hpp"
 #include "hamflow/workflow/run.hpp"
-#include "hamflow/workflow/sweep_summary.hpp"
 
 namespace hamflow {
 

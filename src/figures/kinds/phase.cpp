@@ -7,7 +7,7 @@
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
-#include "hamflow/core/option_names.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {

@@ -5,8 +5,8 @@
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
-#include "hamflow/core/option_names.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
 
 namespace hamflow::figures {
 

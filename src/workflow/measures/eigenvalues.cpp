@@ -3,12 +3,12 @@
 
 #include <limits>
 
-#include "hamflow/verify/monodromy.hpp"
 #include "json_fields.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
 #include "run_keys.hpp"
+#include "verify/monodromy.hpp"
 
 namespace hamflow {
 

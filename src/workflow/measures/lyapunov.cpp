@@ -1,5 +1,5 @@
 // run.lyapunov: exponents of the method's own steps, along the run; in a sweep a column each.
-#include "hamflow/verify/lyapunov.hpp"
+#include "hamflow/detail/verify/lyapunov.hpp"
 
 #include <fmt/format.h>
 

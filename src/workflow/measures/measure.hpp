@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/detail/run/step_sums.hpp"
+#include "hamflow/detail/verify/lyapunov.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/step_sums.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "hamflow/verify/lyapunov.hpp"
 #include "hamflow/workflow/summary.hpp"
 #include "sweep.hpp"
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/step_sums.hpp"
+#include "hamflow/detail/run/step_sums.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"

@@ -7,7 +7,7 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/methods/implicit/segment.hpp"
+#include "hamflow/detail/methods/implicit/segment.hpp"
 
 namespace hamflow::mutants {
 

@@ -5,10 +5,10 @@
 
 #include <iostream>
 
+#include "engine/step_map_of.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/verify/measure.hpp"
-#include "hamflow/verify/step_map_of.hpp"
 
 namespace hamflow::mutants {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"
-#include "hamflow/methods/implicit/implicit_method.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
 
 namespace hamflow::mutants {
 

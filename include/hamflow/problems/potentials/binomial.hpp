@@ -2,7 +2,7 @@
 // A polynomial of degree 4 in q: four Gauss points conserve the energy of cg(1) exactly. Stiff for large k.
 #pragma once
 
-#include "hamflow/problems/support/central_flow.hpp"
+#include "hamflow/detail/problems/central_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 
 namespace hamflow {

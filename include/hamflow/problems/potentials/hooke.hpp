@@ -3,8 +3,8 @@
 // on the x-axis (2.131).
 #pragma once
 
+#include "hamflow/detail/problems/hooke_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
-#include "hamflow/problems/support/hooke_flow.hpp"
 
 namespace hamflow {
 

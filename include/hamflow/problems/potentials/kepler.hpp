@@ -2,9 +2,9 @@
 // Starts: the circle at phi = pi/2 (2.127), (2.128), the other conics at pericentre on the x-axis (2.131).
 #pragma once
 
-#include "hamflow/core/two.hpp"
+#include "hamflow/detail/core/two.hpp"
+#include "hamflow/detail/problems/kepler_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
-#include "hamflow/problems/support/kepler_flow.hpp"
 
 namespace hamflow {
 

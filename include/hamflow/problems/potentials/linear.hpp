@@ -1,7 +1,7 @@
 // Linear potential V(r) = k r, W(u) = k sqrt(u); k > 0 binds.   [Gross1999, Sect. 2.10; (2.165) lacks a factor k]
 #pragma once
 
-#include "hamflow/problems/support/central_flow.hpp"
+#include "hamflow/detail/problems/central_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 
 namespace hamflow {

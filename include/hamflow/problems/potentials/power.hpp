@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "hamflow/problems/support/central_flow.hpp"
+#include "hamflow/detail/problems/central_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 
 namespace hamflow {

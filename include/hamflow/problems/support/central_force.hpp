@@ -9,10 +9,10 @@
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/core/radial_forces.hpp"
-#include "hamflow/problems/support/effective_potential.hpp"
-#include "hamflow/problems/support/energy_start.hpp"
-#include "hamflow/problems/support/potential.hpp"
+#include "hamflow/detail/core/radial_forces.hpp"
+#include "hamflow/detail/problems/effective_potential.hpp"
+#include "hamflow/detail/problems/energy_start.hpp"
+#include "hamflow/detail/problems/potential.hpp"
 
 namespace hamflow {
 

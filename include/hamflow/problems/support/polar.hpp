@@ -3,8 +3,8 @@
 // negative r, where the potential allows it.
 #pragma once
 
+#include "hamflow/detail/problems/one_dimensional.hpp"
 #include "hamflow/problems/support/central_force.hpp"
-#include "hamflow/problems/support/one_dimensional.hpp"
 
 namespace hamflow {
 

@@ -1,0 +1,36 @@
+// What a problem offers to methods: the concepts of core/concepts.hpp as flags.
+#pragma once
+
+#include "hamflow/core/constraints.hpp"
+#include "hamflow/detail/core/radial_forces.hpp"
+
+namespace hamflow {
+
+enum class Capability : unsigned {
+  smooth = 0,             // gradient and Hessian of H, which every problem of the catalogue has
+  separable = 1,          // H = T(p) + V(q)
+  quadratic_kinetic = 2,  // T quadratic with constant mass matrix
+  cyclic = 4,             // the last coordinate is cyclic
+  charge = 8,             // a charge in a uniform magnetic field
+  radial = 16,            // forces along the lines between bodies or to a centre
+  constrained = 32        // constraints g(q) = 0
+};
+constexpr Capability operator|(Capability a, Capability b) {
+  return static_cast<Capability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+/// Whether all flags of `wanted` are among those offered.
+constexpr bool includes(Capability offered, Capability wanted) { return (offered | wanted) == offered; }
+
+template <class P>
+constexpr Capability capabilities_of() {
+  Capability all = Capability::smooth;
+  if constexpr (Separable<P>) all = all | Capability::separable;
+  if constexpr (QuadraticKinetic<P>) all = all | Capability::quadratic_kinetic;
+  if constexpr (Cyclic<P>) all = all | Capability::cyclic;
+  if constexpr (ChargeInField<P>) all = all | Capability::charge;
+  if constexpr (RadialForces<P>) all = all | Capability::radial;
+  if constexpr (Constrained<P>) all = all | Capability::constrained;
+  return all;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,25 @@
+// What formulas do to numbers of every type beside their operations (detail/core/operation.hpp).
+#pragma once
+
+#include "hamflow/core/dual.hpp"
+#include "hamflow/detail/core/tape.hpp"
+#include "hamflow/detail/formula/graph.hpp"
+
+namespace hamflow::formula {
+
+/// A constant as a number of type S, through any nesting of dual numbers.
+template <class S, class R>
+S lifted(const R& x) {
+  if constexpr (std::is_same_v<S, R>) {
+    return x;
+  } else if constexpr (IsDual<S>::value) {
+    return S(lifted<decltype(S::value)>(x));
+  } else {
+    return static_cast<S>(x);
+  }
+}
+
+/// Up to here a whole power is a product.
+inline constexpr int largest_whole_power = 64;
+
+}  // namespace hamflow::formula

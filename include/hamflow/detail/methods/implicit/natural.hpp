@@ -1,0 +1,402 @@
+// cg(1) for H = p^T M^-1 p/2 + V(q) with constant M.   [Gross1999, (2.61)-(2.64), (2.71)-(2.76)]
+//     q1 - q0 = h M^-1 (p0 + p1)/2,      p1 - p0 = h F,     F = -int_0^1 V'(q0 + alpha d) dalpha,  d = q1 - q0.
+// p is eliminated: Newton runs in d alone, on r(d) = h M^-1 (p0 + h F/2) - d with the exact tangent
+//     K = I + (h^2/2) M^-1 int alpha V''(q0 + alpha d) dalpha.
+// p1 is p0 + h F, never 2 M d/h - p0, which would amplify rounding by 2 M/h.
+#pragma once
+
+#include <algorithm>
+
+#include "hamflow/detail/methods/implicit/energy_gain.hpp"
+#include "hamflow/detail/methods/implicit/plane_road.hpp"
+#include "hamflow/detail/methods/implicit/segment.hpp"
+
+namespace hamflow {
+
+/// The variables are d; impulses h F are remembered, from which the next is extrapolated.
+template <class P, class R>
+class NaturalElement : public SegmentEquations<P, R> {
+  using Base = SegmentEquations<P, R>;
+
+ public:
+  using typename Base::Real;
+  using typename Base::V;
+  static constexpr std::size_t n = P::dimension;
+  using Variables = V;
+  using Memory = V;
+
+  struct Setup : SegmentSetup<Real> {
+    Setup(const P& problem, const CgOptions& options)
+        : SegmentSetup<Real>(options),
+          inverse_mass_sizes(inverse_mass_matrix(problem)),
+          mass(inverse(inverse_mass_sizes)) {
+      for (std::size_t i = 0; i < mass.size(); ++i) {
+        for (std::size_t j = 0; j < mass.size(); ++j) inverse_mass_sizes[i][j] = abs(inverse_mass_sizes[i][j]);
+      }
+    }
+    Matrix<Real, n> inverse_mass_sizes;  // |M^-1| entry by entry
+    Matrix<Real, n> mass;
+  };
+  struct Point {
+    V residual{};
+    V sum{};     // kappa F
+    V target{};  // what d should be, h M^-1 (p0 + h F/2)
+    Matrix<Real, n> stiffness{};
+  };
+
+  NaturalElement(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
+      : Base(problem, h, setup.rule()),
+        setup_(setup),
+        q0_(q0),
+        p0_(p0),
+        effort_(effort),
+        flight_(max_norm(terms_of_flight())) {}
+
+  V last_state() const { return zeros_like(q0_); }
+  V predicted() const {
+    V impulse = zeros_like(q0_);
+    force(problem_, q0_, impulse);
+    for (Real& x : impulse) x = h_ * x;
+    ++effort_.force;
+    return displacement(impulse, Real(0.5));
+  }
+  [[gnu::always_inline]] V started(const V& impulse) const { return displacement(impulse, Real(0.5)); }
+
+  /// The whole iteration at once, as it mostly goes (plane_road.hpp); where it goes otherwise nothing is counted.
+  [[gnu::always_inline]] PlaneEnd straight(const V& impulse,
+                                           int most) const requires TakesTwo<P> && std::same_as<Real, double> {
+    const PlaneEnd end = plane_road(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
+    const long long evaluations = static_cast<long long>(end.corrections) * rule_.points;
+    effort_.force += evaluations;
+    effort_.hessian += evaluations;
+    effort_.linear_solves += end.corrections;
+    return end;
+  }
+  [[gnu::always_inline]] void evaluate(const V& d, Point& at) const {
+    at.stiffness = zero_matrix(q0_);
+    integrate(d, at.sum, at.stiffness);
+    at.target = displacement(at.sum, Real(0.5) * unit_);
+    at.residual = zeros_like(d);
+    for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] = at.target[i] - d[i];
+  }
+  /// The residual without its own rounding. In the plane taken() makes up for that, out of the way of the solution.
+  void sharpen(const V& d, Point& at) const requires(n > 2) {
+    const V lost = lost_in_residual(at, half_impulse(at));
+    for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] += lost[i];
+  }
+  [[gnu::always_inline]] Matrix<Real, n> tangent(const Point& at) const {
+    Matrix<Real, n> k = at.stiffness;
+    const Real factor = h_ * h_ / 2;
+    const std::size_t size = k.size();
+    V row = zeros<Real, n>(size);
+    V column = zeros<Real, n>(size);
+    for (std::size_t j = 0; j < size; ++j) {
+      for (std::size_t i = 0; i < size; ++i) row[i] = at.stiffness[j][i];
+      velocity(problem_, row, column);  // M^-1 applied to column j; stiffness is symmetric
+      for (std::size_t i = 0; i < size; ++i) k[i][j] = factor * column[i];
+      k[j][j] += Real(1);
+    }
+    return k;
+  }
+  /// The residual cannot be computed better than to epsilon |target|, however far p0 and the impulse cancel in it at a
+  /// turning point, and the terms of M^-1 p with each other: |h| |M^-1| |p0|.
+  [[gnu::always_inline]] Correction<Real> measure(const V& d, const Point& at, const V& correction) const {
+    return measured(flight_, at.target, d, correction);
+  }
+  template <class X>
+  [[gnu::always_inline]] static Correction<Real> measured(const Real& flight, const X& target, const X& d,
+                                                          const X& correction) {
+    X next = d;
+    for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
+    return {max_norm(correction), epsilon * (larger(flight, max_norm(target)) + max_norm(next))};
+  }
+  /// The size of the target where its rounding hides the step, else 0: at a guess so far off that forces round by more
+  /// than the whole step, any correction looks small.
+  [[gnu::always_inline]] Real doubts(const V& d, const Point& at, const V& correction) const {
+    return doubted(flight_, at.target, d, correction);
+  }
+  template <class X>
+  [[gnu::always_inline]] static Real doubted(const Real& flight, const X& target, const X& d, const X& correction) {
+    X next = d;
+    for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
+    const Real size = max_norm(target);
+    return hidden_by_rounding(Real(epsilon * size), larger(flight, max_norm(next))) ? size : Real(0);
+  }
+
+  [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at) const {
+    V impulse = at.sum;
+    for (Real& x : impulse) x = unit_ * x;
+    return {d, impulse};
+  }
+  /// What the last correction changes is mostly less than half a unit of d and of the impulse. Added to what is rounded
+  /// already it would be lost, an error with the sign of the correction, hence a drift (3.5e-19 of the scale a step on
+  /// a pendulum, measured). So both are rounded once, with it. Nor may it keep the rounding of the residual for which
+  /// it was solved (1.3e-21, measured).
+  [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const V& correction) const {
+    const Expanded half = half_impulse(at);
+    V c = correction;
+    if constexpr (n <= 2) {
+      const V more = made_up_for(tangent(at), lost_in_residual(at, half));
+      for (std::size_t i = 0; i < n; ++i) c[i] += more[i];
+    }
+    return taken(d, at, half, c);
+  }
+  /// What the solution lacks where the residual has lost so much, in the plane.
+  template <class M, class X>
+  [[gnu::always_inline]] static X made_up_for(const M& k, const X& lost) {
+    Real from_identity(0);
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      for (std::size_t j = 0; j < lost.size(); ++j) from_identity += abs(k[i][j] - Real(i == j));
+    }
+    // Where steps resolve the motion a division would cost more than the thirtieth that it adds.
+    return from_identity < Real(0.03125) ? lost : hamflow::solve(k, lost);
+  }
+  V memory(const V&, const Increment<Real, n>& taken) const { return taken.p; }
+
+  /// The 2-norm of the seed's residual (2.63), (2/h) M (d - h M^-1 (p0 + h F/2)). The seed's programs iterate in q1 and
+  /// form d = q1 - q0 anew, which is what limits their residual to about (2/h) M |q| epsilon; so does its criterion
+  /// here.
+  Real norm(const V& d, const Point& at) const {
+    V r = at.residual;
+    if (setup_.options().seed_criterion) {
+      for (std::size_t i = 0; i < d.size(); ++i) r[i] += d[i] - ((q0_[i] + d[i]) - q0_[i]);
+    }
+    const V scaled = apply(setup_.mass, r);
+    Real sum(0);
+    for (std::size_t i = 0; i < d.size(); ++i) sum += scaled[i] * scaled[i];
+    return abs(Real(2) / h_) * sqrt(sum);
+  }
+
+  /// Whether one more point changes the work done by the mean force, which is the energy error of the step, by more
+  /// than rounding can: two sums of at most s + 1 terms round by less than s + 4 units of |F| <= |F(middle)| + |V''|
+  /// |d|, the forces by what rounded coordinates make of them, |V''| |q| epsilon, three times that where terms cancel
+  /// as in a Lennard-Jones well. A bias of that size adds up to some tens of roundings of H over a part of an orbit,
+  /// however small h is; one in units of H would add up to 1/h of them.
+  /// Of many coordinates these absolute values add up to far more than roundings do, whose squares add up: there as
+  /// energy_gain.hpp has it. (Up to four their sum is at most twice the root of the sum of their squares.)
+  bool too_coarse(const V&, const Increment<Real, n>& taken) const {
+    if (q0_.size() > 4) {
+      return detail::overlooks_a_gain(
+          finer_work(taken, 1), rule_.points, [&] { return finer_work(taken, 2).gain; }, [] { return Real(0); },
+          [&](std::uint64_t draw) { return gain_nearby(taken, draw); });
+    }
+    const Real rounding = rounding_of_work(taken);
+    return abs(finer_work(taken).gain) > rounding;
+  }
+  Real rounding_of_work(const Increment<Real, n>& taken) const {
+    const V& d = taken.q;
+    const Real terms(rule_.points + 5);
+    const V middle = detail::midpoint<Real>(q0_, d);
+    V f = zeros_like(d);
+    Matrix<Real, n> second = zero_matrix(d);
+    force_and_hessian(problem_, middle, f, second);
+    ++effort_.force;
+    ++effort_.hessian;
+    const V flight = terms_of_flight();  // d itself rounds by these
+    Real rounding(0);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      Real units = terms * abs(f[i]);
+      for (std::size_t j = 0; j < d.size(); ++j) {
+        units += abs(second[i][j]) * (3 * abs(middle[j]) + terms * abs(d[j]) + 4 * flight[j]);
+      }
+      rounding += epsilon * abs(d[i]) * units;
+    }
+    return rounding;
+  }
+  /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
+  bool believable(const V&, const Increment<Real, n>& taken) const {
+    if (rule_.points == 1) return true;
+    const detail::Gain<Real> work = finer_work(taken, 1);
+    return Real(100) * abs(work.gain) <= work.size;
+  }
+
+  /// What one point more sees beyond what the rule itself sees along a segment so near (energy_gain.hpp).
+  [[gnu::cold, gnu::noinline]] Real gain_nearby(const Increment<Real, n>& taken, std::uint64_t draw) const {
+    const Real unit = Real(1) / Real(1 << 24);
+    V q = q0_;
+    V d = taken.q;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      q[i] = detail::moved_by(unit, q[i], draw, 2 * i);
+      d[i] = detail::moved_by(unit, d[i], draw, 2 * i + 1);
+    }
+    const V middle = detail::midpoint<Real>(q, d);
+    const auto work = [&](const GaussRule<Real>& rule) {
+      V f = zeros_like(d);
+      Real sum(0);
+      for (std::size_t l = 0; l < rule.c.size(); ++l) {
+        force(problem_, detail::on_segment(middle, rule.offset[l], d), f);
+        for (std::size_t i = 0; i < d.size(); ++i) sum += rule.b[l] * d[i] * f[i];
+      }
+      effort_.force += static_cast<long long>(rule.c.size());
+      return sum;
+    };
+    return work(gauss_rule<Real>(std::min(rule_.points + 1, most_gauss_points))) - work(rule_);
+  }
+
+  /// What more points see of the energy gained.
+  detail::Gain<Real> finer_work(const Increment<Real, n>& taken, int more = 1) const {
+    const GaussRule<Real>& finer = gauss_rule<Real>(std::min(rule_.points + more, most_gauss_points));
+    const V& d = taken.q;
+    const V middle = detail::midpoint<Real>(q0_, d);
+    V f = zeros_like(d);
+    detail::Gain<Real> work;
+    V first = f;
+    V q = f;
+    for (std::size_t l = 0; l < finer.c.size(); ++l) {
+      q = detail::on_segment(middle, finer.offset[l], d);
+      force(problem_, q, f);
+      if (l == 0) first = f;
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        work.gain += finer.b[l] * d[i] * (f[i] - taken.p[i] / h_);
+        work.size += abs(finer.b[l] * d[i] * f[i]);
+      }
+    }
+    effort_.force += finer.points;
+    detail::RoundingOfWork<Real> rounding;
+    for (std::size_t i = 0; i < d.size(); ++i) rounding.add(d[i] * f[i], (f[i] - first[i]) * q[i]);
+    work.noise = rounding.of_terms(finer.points + 4);
+    return work;
+  }
+
+ protected:
+  using Base::h_;
+  using Base::problem_;
+  using Base::rule_;
+  using Base::unit_;
+  static constexpr auto epsilon = Epsilon<Real>{};
+
+  /// |h| |M^-1| |p0|, coordinate by coordinate.
+  V terms_of_flight() const {
+    V sizes = zeros_like(p0_);
+    for (std::size_t i = 0; i < p0_.size(); ++i) {
+      for (std::size_t j = 0; j < p0_.size(); ++j) sizes[i] += setup_.inverse_mass_sizes[i][j] * abs(p0_[j]);
+      sizes[i] = abs(h_) * sizes[i];
+    }
+    return sizes;
+  }
+
+  /// sum = -kappa int V'(q0_ + alpha d), stiffness = int alpha V''(q0_ + alpha d).
+  [[gnu::always_inline]] void integrate(const V& d, V& sum, Matrix<Real, n>& stiffness) const {
+    if constexpr (n == dynamic) {
+      sum_points(d, sum, stiffness);
+    } else {
+      sum_blocks(d, sum, stiffness);
+    }
+    effort_.force += rule_.points;
+    effort_.hessian += rule_.points;
+  }
+  /// Large systems, point after point.
+  void sum_points(const V& d, V& sum, Matrix<Real, n>& stiffness) const {
+    const V middle = detail::midpoint<Real>(q0_, d);
+    V f = zeros_like(d);
+    Matrix<Real, n> second = zero_matrix(d);
+    sum = zeros_like(d);
+    for (std::size_t l = 0; l < rule_.c.size(); ++l) {
+      force_and_hessian(problem_, detail::on_segment(middle, rule_.offset[l], d), f, second);
+      const Real force_weight = detail::golden<Real>() * rule_.b[l];
+      const Real weight = rule_.b[l] * (Real(0.5) + rule_.offset[l]);
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        sum[i] += force_weight * f[i];
+        for (std::size_t j = 0; j < d.size(); ++j) stiffness[i][j] += weight * second[i][j];
+      }
+    }
+  }
+  /// The points of a block come first, side by side, so that the compiler can evaluate several at once in vector
+  /// registers; then the sums, point after point.
+  [[gnu::always_inline]] void sum_blocks(const V& d, V& out, Matrix<Real, n>& stiffness) const {
+    constexpr std::size_t block = 32;  // more than a step commonly has; shorter ones get unrolled to no good
+    const auto s = static_cast<std::size_t>(rule_.points);
+    Real forces[n][block];
+    Real hessians[n][n][block];
+    V sum{};
+    const V middle = detail::midpoint<Real>(q0_, d);
+    constexpr Real half = Real(1) / Real(2);
+    for (std::size_t first = 0; first < s; first += block) {
+      const Real* offset = rule_.offset.data() + first;
+      const Real* b = rule_.b.data() + first;
+      const std::size_t count = s - first < block ? s - first : block;
+      for (std::size_t l = 0; l < count; ++l) {
+        V q{};
+        V f{};
+        Matrix<Real, n> second{};
+        for (std::size_t i = 0; i < n; ++i) q[i] = middle[i] + offset[l] * d[i];
+        force_and_hessian(problem_, q, f, second);
+        const Real force_weight = detail::golden<Real>() * b[l];
+        const Real weight = b[l] * (half + offset[l]);
+        for (std::size_t i = 0; i < n; ++i) {
+          forces[i][l] = force_weight * f[i];
+          for (std::size_t j = 0; j < n; ++j) hessians[i][j][l] = weight * second[i][j];
+        }
+      }
+      for (std::size_t l = 0; l < count; ++l) {
+        for (std::size_t i = 0; i < n; ++i) {
+          sum[i] += forces[i][l];
+          for (std::size_t j = 0; j < n; ++j) stiffness[i][j] += hessians[i][j][l];
+        }
+      }
+    }
+    out = sum;
+  }
+
+  /// h M^-1 (p0 + factor x), where 2 factor x is an impulse.
+  [[gnu::always_inline]] V displacement(const V& x, const Real& factor) const {
+    V middle = zeros_like(p0_);
+    V v = zeros_like(p0_);
+    for (std::size_t i = 0; i < p0_.size(); ++i) middle[i] = p0_[i] + factor * x[i];
+    velocity(problem_, middle, v);
+    for (std::size_t i = 0; i < p0_.size(); ++i) v[i] = h_ * v[i];
+    return v;
+  }
+
+  /// A rounded value and what it has lost.
+  struct Expanded {
+    V high{};
+    V low{};
+  };
+  [[gnu::always_inline]] Expanded half_impulse(const Point& at) const {
+    Expanded half{zeros_like(p0_), zeros_like(p0_)};
+    const Real unit = Real(0.5) * unit_;
+    for (std::size_t i = 0; i < p0_.size(); ++i) {
+      half.high[i] = unit * at.sum[i];
+      half.low[i] = product_error(unit, at.sum[i], half.high[i]);
+    }
+    return half;
+  }
+  /// What the residual, h M^-1 (p0 + h F/2) - d, has lost to the rounding of its first term, epsilon |h M^-1 p0|. The
+  /// difference is exact near the solution.
+  [[gnu::always_inline]] V lost_in_residual(const Point& at, const Expanded& half) const {
+    V middle = zeros_like(p0_);
+    V lost = zeros_like(p0_);  // middle + lost = p0 + h F/2
+    for (std::size_t i = 0; i < p0_.size(); ++i) {
+      middle[i] = p0_[i] + half.high[i];
+      const Real part = middle[i] - p0_[i];
+      lost[i] = ((p0_[i] - (middle[i] - part)) + (half.high[i] - part)) + half.low[i];
+    }
+    V v = zeros_like(p0_);
+    V rest = zeros_like(p0_);
+    velocity(problem_, middle, v);
+    velocity(problem_, lost, rest);
+    for (std::size_t i = 0; i < p0_.size(); ++i) rest[i] = product_error(h_, v[i], at.target[i]) + h_ * rest[i];
+    return rest;
+  }
+
+  /// With the whole correction c. See above.
+  [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const Expanded& half, const V& c) const {
+    V impulse = zeros_like(d);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      Real change(0);
+      for (std::size_t j = 0; j < d.size(); ++j) change += at.stiffness[i][j] * c[j];
+      impulse[i] = 2 * half.high[i] + (2 * half.low[i] - h_ * change);
+    }
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] += c[i];
+    return {d, impulse};
+  }
+
+  const Setup& setup_;
+  const V& q0_;
+  const V& p0_;
+  Effort& effort_;
+  Real flight_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,229 @@
+// A kick on the lattice from forces between pairs: each pair's contribution is rounded to the lattice of momenta, added
+// to one body and subtracted from the other, and the integers are summed. The sum depends neither on the order of
+// the pairs nor on which thread adds them, so that any number of threads gives the same bits; the total momentum does
+// not change at all; and since the rounding is odd, a kick of -h takes back one of h.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/detail/core/thread_team.hpp"
+
+namespace hamflow {
+
+/// Forces besides those of pairs, each on one body: single_kicks(factor, position, sink) calls sink(i, r) where factor
+/// times such a force adds r to p_i; position(k) is the k-th coordinate.
+template <class P, class F = typename P::Real>
+concept HasSingleKicks = requires(const P& problem, const F& factor, F (*position)(std::size_t),
+                                  void (*sink)(std::size_t, const F&)) {
+  problem.single_kicks(factor, position, sink);
+};
+
+/// Lists of the pairs that can contribute: near_pairs(position, team) returns rows, near[i].size() pairs in row i, with
+/// a version() that changes with them; pair_kicks takes it as its last argument.
+template <class P>
+concept HasNearPairs = requires(const P& problem, double (*position)(std::size_t), ThreadTeam* team) {
+  problem.near_pairs(position, team);
+};
+
+/// Copies share their threads, and take turns.
+template <class P, Arithmetic A>
+requires PairwiseForces<P> && IntegerSums<A>
+class PairSums {
+ public:
+  static constexpr std::size_t n = P::dimension;
+  using Real = typename A::Real;
+  using Stored = typename A::Stored;
+
+  void use_threads(std::size_t count) { crew_ = count > 1 ? std::make_shared<Crew>(count) : nullptr; }
+
+  /// kick <- factor F(q), rounded pair by pair.
+  /// @return false where a contribution is too large; `kick` is then undefined
+  template <class F>
+  [[gnu::noinline]] bool evaluate(const P& problem, const F& factor, const PhasePoint<A, n>& z,
+                                  Vector<Stored, n>& kick) const {
+    const auto visit = [&](const auto& near, std::size_t first, std::size_t last, Sink& sink) {
+      if constexpr (HasNearPairs<P>) {
+        problem.pair_kicks(factor, Difference{z}, first, last, sink, near);
+      } else {
+        problem.pair_kicks(factor, Difference{z}, first, last, sink);
+      }
+    };
+    const bool pairs = sum(problem, z, kick, visit);
+    if constexpr (has_singles<F>) {
+      Sink sink{z.arithmetic, limit(problem), kick.begin()};
+      problem.single_kicks(
+          factor, [&](std::size_t i) { return z.arithmetic.position.read(z.q[i]); },
+          [&](std::size_t i, const Real& r) { sink.add(i, r); });
+      return pairs && !sink.lost;
+    } else {
+      return pairs;
+    }
+  }
+  /// kick <- first F(q) - third V''(q) v, likewise.
+  template <class F>
+  [[gnu::noinline]] bool evaluate_with_gradient(const P& problem, const F& first, const F& third,
+                                                const Vector<Real, n>& v, const PhasePoint<A, n>& z,
+                                                Vector<Stored, n>& kick) const {
+    return sum(problem, z, kick, [&](const auto& /*near*/, std::size_t from, std::size_t to, Sink& sink) {
+      problem.pair_gradient_kicks(first, third, v, Difference{z}, from, to, sink);
+    });
+  }
+
+ private:
+  struct Difference {
+    const PhasePoint<A, n>& z;
+    Real operator()(std::size_t a, std::size_t b) const { return z.arithmetic.position.difference(z.q[a], z.q[b]); }
+  };
+  struct Sink {
+    const A& arithmetic;
+    Real limit;
+    Stored* sums;
+    bool lost = false;
+    void operator()(std::size_t up, std::size_t down, const Real& r) {
+      Stored k = 0;
+      if (!arithmetic.momentum.units(r, limit, k)) [[unlikely]]
+        lost = true;
+      sums[up] += k;
+      sums[down] -= k;
+    }
+    void add(std::size_t i, const Real& r) {
+      Stored k = 0;
+      if (!arithmetic.momentum.units(r, limit, k)) [[unlikely]]
+        lost = true;
+      sums[i] += k;
+    }
+  };
+  /// Whether there are forces besides those of pairs, on one body each (HasSingleKicks).
+  template <class F>
+  static constexpr bool has_singles = HasSingleKicks<P, F>;
+  /// A power of two such that as many contributions as a coordinate has stay below 2^62 together: no partial sum can
+  /// overflow, whatever its order, and whether a kick is refused does not depend on the order either.
+  static Real limit(const P& problem) {
+    const std::size_t singles = has_singles<Real> ? 1 : 0;
+    return std::ldexp(Real(1), 62 - static_cast<int>(std::bit_width(problem.pair_rows() + singles)));
+  }
+
+  /// What one thread has summed in the call that it last took part in.
+  struct alignas(64) Share {
+    std::uint64_t call = 0;
+    bool lost = false;
+    std::vector<Stored> sums;
+  };
+  struct Crew {
+    explicit Crew(std::size_t count) : team(count), shares(count) {}
+    std::mutex busy;
+    std::vector<std::size_t> rows;  // where each block begins, and the end
+    std::uint64_t version = 0;      // of the lists that they divide
+    ThreadTeam team;
+    std::vector<Share> shares;
+  };
+
+  /// Of a problem without lists.
+  struct EveryPair {
+    struct Row {
+      std::size_t pairs;
+      std::size_t size() const { return pairs; }
+    };
+    const P& problem;
+    Row operator[](std::size_t i) const { return {problem.pairs_in_row(i)}; }
+    static std::uint64_t version() { return 0; }
+  };
+  static auto pairs_at(const P& problem, [[maybe_unused]] const PhasePoint<A, n>& z,
+                       [[maybe_unused]] ThreadTeam* team) {
+    if constexpr (HasNearPairs<P>) {
+      return problem.near_pairs([&](std::size_t i) { return z.arithmetic.position.read(z.q[i]); }, team);
+    } else {
+      return EveryPair{problem};
+    }
+  }
+
+  /// @param visit (near, first, last, sink): gives the sink what the pairs of these rows contribute
+  template <class Visit>
+  bool sum(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
+    if (crew_) return sum_by_many(problem, z, kick, visit);
+    for (Stored& k : kick) k = 0;
+    Sink sink{z.arithmetic, limit(problem), kick.begin()};
+    visit(pairs_at(problem, z, nullptr), 0, problem.pair_rows(), sink);
+    return !sink.lost;
+  }
+  template <class Visit>
+  bool sum_by_many(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
+    Crew& crew = *crew_;
+    const std::lock_guard turn(crew.busy);
+    const auto near = pairs_at(problem, z, &crew.team);
+    if (crew.shares[0].sums.size() != kick.size()) {
+      crew.rows.clear();
+      for (Share& share : crew.shares) share = {0, false, std::vector<Stored>(kick.size())};
+    }
+    if (crew.rows.empty() || crew.rows.back() != problem.pair_rows() || crew.version != near.version()) {
+      divide(near, problem.pair_rows(), crew);
+    }
+    const Real most = limit(problem);
+    auto work = [&](std::size_t worker, std::uint64_t call, std::size_t block) {
+      Share& share = crew.shares[worker];
+      if (share.call != call) {
+        share.call = call;
+        share.lost = false;
+        std::fill(share.sums.begin(), share.sums.end(), Stored{0});
+      }
+      Sink sink{z.arithmetic, most, share.sums.data()};
+      visit(near, crew.rows[block], crew.rows[block + 1], sink);
+      share.lost = share.lost || sink.lost;
+    };
+    const std::uint64_t call = crew.team.share(crew.rows.size() - 1, work);
+    for (Stored& k : kick) k = 0;
+    bool lost = false;
+    for (const Share& share : crew.shares) {
+      if (share.call != call) continue;
+      lost = lost || share.lost;
+      for (std::size_t i = 0; i < kick.size(); ++i) kick[i] += share.sums[i];
+    }
+    return !lost;
+  }
+
+  /// Rows to blocks of about as many pairs: some for each thread, so that one that comes late holds up nobody.
+  template <class Near>
+  static void divide(const Near& near, std::size_t rows, Crew& crew) {
+    constexpr std::size_t blocks_each = 4;
+    std::size_t pairs = 0;
+    for (std::size_t row = 0; row < rows; ++row) pairs += near[row].size();
+    const std::size_t each = pairs / (blocks_each * crew.team.size()) + 1;
+    crew.version = near.version();
+    crew.rows.reserve(blocks_each * crew.team.size() + 2);
+    crew.rows.assign(1, 0);
+    std::size_t held = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      held += near[row].size();
+      if (held >= each || row + 1 == rows) {
+        crew.rows.push_back(row + 1);
+        held = 0;
+      }
+    }
+  }
+
+  std::shared_ptr<Crew> crew_;
+};
+
+namespace detail {
+/// What a kernel keeps: nothing, and floating-point kicks, where it does not sum integers.
+struct NoPairSums {};
+template <class P, class A, bool sums_integers>
+struct PairSumsOf {
+  using type = NoPairSums;
+  using Increment = typename A::Real;
+};
+template <class P, class A>
+struct PairSumsOf<P, A, true> {
+  using type = PairSums<P, A>;
+  using Increment = typename A::Stored;
+};
+}  // namespace detail
+
+}  // namespace hamflow

@@ -1,0 +1,54 @@
+// A vector and a matrix of few numbers, stored in place, whose size is known at run time: what a Newton iteration works
+// with when its equations are recorded, so that one compiled iteration serves systems of several sizes at the speed of
+// fixed ones.
+#pragma once
+
+#include "hamflow/core/error.hpp"
+#include "hamflow/detail/numerics/dense.hpp"
+
+namespace hamflow {
+
+/// At most `most` numbers; a value.
+struct Few {
+  static constexpr std::size_t most = 6;
+  using value_type = double;
+
+  double entry[most]{};
+  std::size_t count = 0;
+
+  double& operator[](std::size_t i) { return entry[i]; }
+  const double& operator[](std::size_t i) const { return entry[i]; }
+  std::size_t size() const { return count; }
+  const double* begin() const { return entry; }
+  const double* end() const { return entry + count; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(entry, count);
+    if constexpr (Archive::reading) {
+      if (count > most) throw Error("saved bytes hold a vector of another size");
+    }
+  }
+};
+
+/// A square matrix.
+struct FewRows {
+  double entry[Few::most][Few::most];
+  std::size_t count = 0;
+
+  double* operator[](std::size_t row) { return entry[row]; }
+  const double* operator[](std::size_t row) const { return entry[row]; }
+  std::size_t size() const { return count; }
+};
+
+/// x with m x = b, with the bits of systems of that size.
+Few solve(const FewRows& m, const Few& b);
+/// The largest absolute entry.
+inline double max_norm(const Few& x) {
+  double largest = 0;
+  for (const double v : x) largest = larger(largest, std::abs(v));
+  return largest;
+}
+double determinant(const FewRows& m);
+double condition_number(const FewRows& m);
+
+}  // namespace hamflow

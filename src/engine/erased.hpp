@@ -1,0 +1,107 @@
+// Between the typed problems and the methods that are compiled once for each number type (src/engine/any_problem.hpp).
+#pragma once
+
+#include <memory>
+
+#include "any_problem.hpp"
+#include "hamflow/arithmetic/double_double.hpp"
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/detail/core/tape.hpp"
+#include "hamflow/detail/run/digits.hpp"
+#include "hamflow/run/catalog.hpp"
+
+namespace hamflow {
+
+struct StepWalls;
+
+// Recordings are compiled once for each number type, in traces.cpp.
+#define HAMFLOW_FOR_EACH_TRACED(X) X(double) X(long double) X(DoubleDouble) X(Quad) X(Mp)
+#define HAMFLOW_TRACED(R)          \
+  extern template struct Trace<R>; \
+  extern template class Recorder<R>;
+HAMFLOW_FOR_EACH_TRACED(HAMFLOW_TRACED)
+#undef HAMFLOW_TRACED
+
+/// The problem in R. It can be recorded on a tape, for taylor; in double it can also be differentiated, for the
+/// Jacobian of a step.
+template <class R>
+struct ErasedFunctions {
+  Capability capability{};
+  std::size_t size = 0;
+  std::shared_ptr<const Functions<R>> plain;
+  std::shared_ptr<const Functions<Trace<R>>> trace;
+  std::shared_ptr<const Functions<Dual<double, 1>>> dual;
+
+  template <Capability c>
+  auto as() const {
+    if constexpr (std::is_same_v<R, double>) {
+      return AnyProblem<double, c, Trace<double>, Dual<double, 1>>(size, plain, trace, dual);
+    } else {
+      return AnyProblem<R, c, Trace<R>>(size, plain, trace);
+    }
+  }
+};
+template <class R, Capability c>
+using Erased = decltype(std::declval<ErasedFunctions<R>>().template as<c>());
+
+/// A problem in R with its start.
+template <class R>
+struct ErasedRun {
+  ErasedFunctions<R> functions;
+  Vector<R, dynamic> q;
+  Vector<R, dynamic> p;
+  R h;
+  std::shared_ptr<const StepWalls> walls{};  // that a recorded step has to stay within
+};
+/// Of the request the method and the arithmetic count. Defined for each number type in a file of its own.
+template <class R>
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request);
+
+/// What a StepMap computes in: double for structure, more digits for orders.
+struct ErasedProblem {
+  ErasedFunctions<double> in_double;
+  ErasedFunctions<long double> in_long;
+  ErasedFunctions<Quad> in_quad;
+  template <class R>
+  const ErasedFunctions<R>& in() const {
+    if constexpr (std::is_same_v<R, double>) {
+      return in_double;
+    } else if constexpr (std::is_same_v<R, long double>) {
+      return in_long;
+    } else {
+      return in_quad;
+    }
+  }
+};
+/// Of the request the method and the walls count.
+std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Request& request);
+
+/// What the catalogue has of one problem that is compiled with a light optimisation, beside its kernels.
+struct ErasedEntry {
+  ProblemEntry facts;  // all but how it is simulated
+  /// In any arithmetic of `extended`, and in double for methods that have no typed kernel.
+  std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
+  std::function<std::unique_ptr<StepMap>(const Request&, std::size_t size)> step_map;
+  /// The change of coordinates to the reference chart of the problem and back, in an arithmetic of `extended`; empty in
+  /// that chart itself.
+  std::function<DigitState(const std::string& arithmetic, const DigitState&)> to_reference{};
+  std::function<DigitState(const std::string& arithmetic, const DigitState&)> from_reference{};
+  /// In double, from numbers.
+  std::function<std::unique_ptr<Simulation>(const Request&, const Parameters<double>&, const std::vector<double>& q,
+                                            const std::vector<double>& p, double h)>
+      simulate_member{};
+};
+
+/// action.template operator()<R>() with the number type of an arithmetic beyond double.
+template <class Action>
+auto in_arithmetic(const std::string& arithmetic, const Action& action) {
+  if (arithmetic == "double-double") return action.template operator()<DoubleDouble>();
+  if (arithmetic == "quad") return action.template operator()<Quad>();
+  const int digits = mp_digits(arithmetic);
+  if (digits == 0) throw Error("found '" + arithmetic + "'; allowed double-double, quad, mp(d)");
+  const MpDigits scope(digits);
+  return action.template operator()<Mp>();
+}
+
+}  // namespace hamflow

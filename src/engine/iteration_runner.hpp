@@ -1,0 +1,54 @@
+// The steps of one simulation that are solved by iteration, by their programs: Newton's decisions (newton.hpp) around
+// recorded corrections (recorded_iteration.hpp), or around stages in lanes (stages_in_lanes.hpp), with the bits of the
+// simulation behind virtual calls. A step that leaves their straight road is for the simulation itself.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hamflow/detail/numerics/newton_progress.hpp"
+#include "recorded_iteration.hpp"
+#include "stages_in_lanes.hpp"
+
+namespace hamflow {
+
+/// Stages in lanes, at a state; nothing where a method is not solved like that, or H not recorded.
+using StageRecorder = std::function<std::optional<StagesInLanes>(std::span<const double> q, std::span<const double> p)>;
+
+class IterationRunner {
+ public:
+  /// @param recorded its `correct` is not used where there are stages
+  IterationRunner(RecordedIteration recorded, const NewtonOptions& options, std::optional<StagesInLanes> stages);
+
+  /// Takes steps from a frame with a first guess, until a step is for the simulation.
+  /// @return how many were taken; the frame is behind them   @param effort to which their work is added   @param doubt
+  /// of Newton: good guesses still wanted, 0 unless settles_doubts()
+  std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& doubt);
+  /// Steps that begin from the last state, and whether such an end is believed, which is asked of no stages.
+  bool settles_doubts() const { return stages_.has_value(); }
+
+ private:
+  bool take_step(std::span<double> frame, Effort& effort, int& doubt);
+  int solved(std::span<double> frame, int& doubt);
+  bool correct(std::span<double> frame);
+  bool end(std::span<double> frame);
+  NewtonDecision judge(std::span<const double> frame, NewtonProgress<double>& progress) const;
+  /// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
+  bool is_hidden(std::span<const double> frame) const;
+
+  RecordedIteration recorded_;
+  NewtonOptions options_;
+  std::optional<StagesInLanes> stages_;
+  std::shared_ptr<const StepLoop> correct_;  // null with stages
+  std::shared_ptr<const StepLoop> finish_;
+  std::vector<double> before_;
+  std::vector<double> q_;
+  std::vector<double> p_;
+  std::vector<double> start_;
+  std::vector<double> next_;  // of stages: the first guess of the next step
+};
+
+}  // namespace hamflow

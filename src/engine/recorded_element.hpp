@@ -1,0 +1,223 @@
+// cg(1) for few coordinates whose equations are recorded (element_programs.hpp): one compiled Newton for every problem
+// behind virtual calls, at about the speed, and with the bits, of the elements that are compiled with a problem.
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "element_programs.hpp"
+#include "hamflow/detail/methods/implicit/implicit_method.hpp"
+
+namespace hamflow {
+
+/// What a recorded element is made of.
+struct RecordedElementOptions {
+  CgOptions cg;
+  ElementFrame frame;
+  std::function<std::shared_ptr<const ElementPrograms>(int points)> record;
+};
+
+/// @tparam P of dynamic size
+template <class P>
+class RecordedElement : public SegmentEquations<P, double> {
+  using Base = SegmentEquations<P, double>;
+
+ public:
+  using typename Base::Real;
+  using typename Base::V;
+  static constexpr std::size_t n = dynamic;
+  using Variables = Few;
+  using Memory = Few;
+
+  class Setup : public SegmentSetup<double> {
+   public:
+    Setup(const P&, const RecordedElementOptions& options)
+        : SegmentSetup<double>(options.cg), frame(options.frame), made_(std::make_shared<Made>()) {
+      made_->record = options.record;
+      choose();
+    }
+    const ElementPrograms& programs() const { return *programs_; }
+    bool refine() { return SegmentSetup<double>::refine() && choose(); }
+    void restart() {
+      SegmentSetup<double>::restart();
+      choose();
+    }
+    void return_to(const GaussRule<double>* rule) {
+      SegmentSetup<double>::return_to(rule);
+      choose();
+    }
+    template <class Archive>
+    void archive(Archive& ar) {
+      SegmentSetup<double>::archive(ar);
+      if constexpr (Archive::reading) choose();
+    }
+    ElementFrame frame;
+
+   private:
+    struct Made {  // shared by copies, which may run on several threads
+      std::mutex mutex;
+      std::function<std::shared_ptr<const ElementPrograms>(int points)> record;
+      std::map<int, std::shared_ptr<const ElementPrograms>> by_points;
+    };
+    bool choose() {
+      const std::scoped_lock lock(made_->mutex);
+      std::shared_ptr<const ElementPrograms>& found = made_->by_points[rule().points];
+      if (!found) found = made_->record(rule().points);
+      programs_ = found.get();
+      return true;
+    }
+    std::shared_ptr<Made> made_;
+    const ElementPrograms* programs_ = nullptr;
+  };
+  struct Point {
+    Few residual;
+    mutable std::array<double, ElementFrame::most> frame;  // also what programs work in
+  };
+
+  RecordedElement(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
+      : Base(problem, h, setup.rule()), setup_(setup), frame_(setup.frame), q0_(q0), p0_(p0), effort_(effort) {}
+
+  Few last_state() const { return {{}, frame_.m}; }
+  Few predicted() const {
+    Point at;
+    begin(at);
+    run(setup_.programs().predicted, at);
+    return read(at, frame_.x());
+  }
+  Few started(const Few& memory) const {
+    if (memory.size() != frame_.m) return last_state();  // of a state that was saved elsewhere
+    Point at;
+    begin(at);
+    put(memory, at, frame_.x());
+    run(setup_.programs().started, at);
+    return read(at, frame_.x());
+  }
+  void evaluate(const Few& x, Point& at) const {
+    begin(at);
+    put(x, at, frame_.x());
+    run(setup_.programs().evaluated, at);
+    at.residual = read(at, frame_.residual());
+  }
+  void sharpen(const Few&, Point& at) const {
+    if (is_natural() && frame_.n <= 2) return;  // taken() makes up for it, as natural.hpp does
+    const Few lost = read(at, frame_.lost());
+    for (std::size_t i = 0; i < frame_.m; ++i) at.residual[i] = is_natural() ? at.residual[i] + lost[i] : lost[i];
+  }
+  FewRows tangent(const Point& at) const {
+    FewRows k;
+    k.count = frame_.m;
+    const double* from = at.frame.data() + frame_.tangent();
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      for (std::size_t j = 0; j < frame_.m; ++j) k[i][j] = *from++;
+    }
+    return k;
+  }
+  Correction<Real> measure(const Few& x, const Point& at, const Few& correction) const {
+    if (is_natural()) {
+      return NaturalElement<P, Real>::measured(at.frame[frame_.number()], read(at, frame_.point() + frame_.m), x,
+                                               correction);
+    }
+    return GeneralElement<P, Real>::measured(read(at, frame_.point() + 2 * frame_.m), x, correction);
+  }
+  Real doubts(const Few& x, const Point& at, const Few& correction) const {
+    const Few target = read(at, frame_.point() + frame_.m);
+    return is_natural() ? NaturalElement<P, Real>::doubted(at.frame[frame_.number()], target, x, correction)
+                        : GeneralElement<P, Real>::doubted(target, x, correction);
+  }
+  Increment<Real, n> taken(Few& x, const Point& at) const {
+    put(x, at, frame_.x());
+    run(setup_.programs().taken, at);
+    return increment_of(x, at);
+  }
+  Increment<Real, n> taken(Few& x, const Point& at, const Few& correction) const {
+    Few c = correction;
+    if (is_natural() && frame_.n <= 2) {
+      const Few more = NaturalElement<P, Real>::made_up_for(tangent(at), read(at, frame_.lost()));
+      for (std::size_t i = 0; i < frame_.m; ++i) c[i] += more[i];
+    }
+    put(x, at, frame_.x());
+    put(c, at, frame_.correction());
+    run(setup_.programs().corrected, at);
+    return increment_of(x, at);
+  }
+  Few memory(const Few&, const Increment<Real, n>& taken) const {
+    Few all{{}, frame_.m};
+    for (std::size_t i = 0; i < frame_.n; ++i) {
+      if (!is_natural()) all[i] = taken.q[i];
+      all[frame_.m - frame_.n + i] = taken.p[i];
+    }
+    return all;
+  }
+  Real norm(const Few& x, const Point& at) const {
+    put(x, at, frame_.x());
+    const double flight = at.frame[frame_.number()];
+    run(setup_.programs().norm, at);
+    return std::exchange(at.frame[frame_.number()], flight);
+  }
+  bool too_coarse(const Few&, const Increment<Real, n>& u) const {
+    const Work work = finer_work(u);
+    return abs(work.gain) > work.rounding;
+  }
+  bool believable(const Few&, const Increment<Real, n>& u) const {
+    if (setup_.rule().points == 1) return true;
+    const Work work = finer_work(u);
+    return 100 * abs(work.gain) <= work.size;
+  }
+
+ private:
+  struct Work {
+    double gain;
+    double size;
+    double rounding;
+  };
+  Work finer_work(const Increment<Real, n>& u) const {
+    Point at;
+    begin(at);
+    for (std::size_t i = 0; i < frame_.n; ++i) {
+      at.frame[frame_.increment() + i] = u.q[i];
+      at.frame[frame_.increment() + frame_.n + i] = u.p[i];
+    }
+    run(setup_.programs().work, at);
+    const double* const number = at.frame.data() + frame_.number();
+    return {number[0], number[1], number[2]};
+  }
+
+  bool is_natural() const { return frame_.m == frame_.n; }
+  void begin(Point& at) const {
+    at.frame[ElementFrame::h] = this->h_;
+    for (std::size_t i = 0; i < frame_.n; ++i) {
+      at.frame[ElementFrame::q0 + i] = q0_[i];
+      at.frame[frame_.p0() + i] = p0_[i];
+    }
+  }
+  /// Where products are too large to be recorded nothing is a number, and Newton does not converge.
+  void run(const ElementProgram& program, const Point& at) const {
+    if (!program.run(at.frame, effort_)) at.frame.fill(std::numeric_limits<double>::quiet_NaN());
+  }
+  Few read(const Point& at, std::size_t from) const {
+    Few x;
+    x.count = frame_.m;
+    for (std::size_t i = 0; i < frame_.m; ++i) x[i] = at.frame[from + i];
+    return x;
+  }
+  static void put(const Few& x, const Point& at, std::size_t to) {
+    for (std::size_t i = 0; i < x.size(); ++i) at.frame[to + i] = x[i];
+  }
+  Increment<Real, n> increment_of(Few& x, const Point& at) const {
+    x = read(at, frame_.x());
+    Increment<Real, n> u{V(frame_.n), V(frame_.n)};
+    for (std::size_t i = 0; i < frame_.n; ++i) {
+      u.q[i] = at.frame[frame_.increment() + i];
+      u.p[i] = at.frame[frame_.increment() + frame_.n + i];
+    }
+    return u;
+  }
+
+  const Setup& setup_;
+  const ElementFrame& frame_;
+  const V& q0_;
+  const V& p0_;
+  Effort& effort_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,79 @@
+// A part of a step, recorded: Psi_h of a method that remembers nothing, with the length h as an input. Walls are
+// located on such parts (docs/design.md, Walls), some six of them a bounce, each of another length.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "carried.hpp"
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/detail/methods/step_density.hpp"
+#include "hamflow/detail/run/steps_in_parts.hpp"
+#include "numerics/program_of_tape.hpp"
+#include "parts_in_numbers.hpp"
+
+namespace hamflow {
+
+/// From a state, with a length to begin with. Nothing where a part is no straight line.
+using PartRecorder = std::function<std::optional<RecordedPart>(const Vector<double, dynamic>& q,
+                                                               const Vector<double, dynamic>& p, double h)>;
+
+/// leaf(x) for every counter that objects archive: whole numbers that no step does more with than count.
+template <class Leaf, class... Objects>
+void for_each_counter(Leaf&& leaf, Objects&... objects) {
+  for_each_carried(
+      [&]<class T>(T& x) {
+        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) leaf(x);
+      },
+      objects...);
+}
+
+/// @tparam A of traces, of any length (detail/methods/step_density.hpp)   @param method bound to `problem`
+template <class A, class P, class M>
+std::optional<RecordedPart> record_part(const P& problem, M method, const Vector<double, dynamic>& q,
+                                        const Vector<double, dynamic>& p, double h, std::size_t most_operations) {
+  using Number = Trace<double>;
+  PhasePoint<A, dynamic> z;
+  z.store(cast<Number>(q), cast<Number>(p));
+  try {
+    RecordedPart recorded{.program = {}, .size = q.size(), .effort = {}};
+    Recorder<double> recorder(Folding::exact, most_operations);
+    for_each_carried(
+        [&]<class T>(T& x) {
+          static_assert(std::is_same_v<T, Number>, "hamflow: a state of other numbers has no recorded parts");
+          x = recorder.input(x.value);
+          ++recorded.state;
+        },
+        z);
+    const Number length = recorder.input(h);
+    for (std::size_t i = 0; i < 2 * q.size() + 1; ++i) (void)recorder.input(0.0);
+    method.invalidate();
+    const Effort before = method.effort();
+    for_each_counter([&](auto& x) { recorded.counters.push_back(-static_cast<std::int64_t>(x)); }, method);
+    if (method.step(problem, length, z) != Outcome::done) return std::nullopt;
+    add_evaluations(recorded.effort, method.effort(), before);
+    std::size_t k = 0;
+    for_each_counter([&](auto& x) { recorded.counters[k++] += static_cast<std::int64_t>(x); }, method);
+    std::vector<Number> after;
+    for_each_carried(
+        [&]<class T>(T& x) {
+          if constexpr (std::is_same_v<T, Number>) after.push_back(x);
+        },
+        z);
+    after.push_back(length);
+    const Vector<Number, dynamic> q1 = z.positions();
+    const Vector<Number, dynamic> p1 = z.momenta();
+    Vector<Number, dynamic> v = zeros_like(p1);
+    velocity(problem, p1, v);
+    after.insert(after.end(), q1.begin(), q1.end());
+    after.insert(after.end(), v.begin(), v.end());
+    after.push_back(energy(problem, q1, p1));
+    recorded.program = program_of(recorder.finish(after));
+    return recorded;
+  } catch (const CannotRecord&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace hamflow

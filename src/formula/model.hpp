@@ -1,0 +1,108 @@
+// **A typed Hamiltonian, understood**: its names, what H is (separable, T quadratic, dependent on the time), and code
+// for H, its exact derivatives and its invariants. What holds for all values of the parameters is here, once for all
+// runs; formula/functions.hpp gives the parameters values.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hamflow/detail/core/step_clock.hpp"
+#include "hamflow/formula/formula.hpp"
+#include "hamflow/formula/problem_texts.hpp"
+
+namespace hamflow {
+
+namespace formula {
+
+/// Entries (row, column) of a symmetric or general matrix that are not 0 everywhere, in the order of code's outputs.
+using Entries = std::vector<std::pair<std::size_t, std::size_t>>;
+
+struct HessianCode {
+  std::shared_ptr<const Code> code;
+  Entries qq, qp, pp;  // qq and pp with row <= column
+};
+struct ForceAndHessianCode {
+  std::shared_ptr<const Code> code;  // the force, then
+  Entries entries;                   // with row <= column
+};
+
+class Model {
+ public:
+  /// @throws FormulaError where a text is wrong, or its derivatives are too long
+  explicit Model(const FormulaTexts& texts);
+  ~Model();
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  /// Coordinates that have names.
+  std::size_t size() const { return coordinates_.size(); }
+  /// Degrees of freedom of the functions below. Where H depends on t, two more coordinates carry the time: the time
+  /// since the present step began, with the momentum E, and behind it the time at which that step began, which no
+  /// motion changes (detail/core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) +
+  /// E: along a motion t' = 1 and E' = -dH/dt, so that H + E is conserved: its deviation is H - H(0) - int dH/dt.
+  /// Derivatives are by both coordinates: what a method knows of rounding is a derivative times a coordinate, and late
+  /// in a run the time at which a step began rounds by more than the step is long.
+  /// Separable H stay so if T does not depend on t: kicks are at the time of their stage.
+  std::size_t degrees() const { return size() + (structure_.time ? clock_coordinates : 0); }
+  const std::vector<std::string>& coordinates() const { return coordinates_; }  // x[1], x[2], ...
+  const std::vector<std::string>& momenta() const { return momenta_; }
+  const std::vector<std::string>& invariants() const { return invariant_names_; }
+  const FormulaStructure& structure() const { return structure_; }
+  /// The texts in one line, for saved states.
+  const std::string& label() const { return label_; }
+  /// Coordinates, momenta, t, parameters, in the order of values; known: what indices needed.
+  const FormulaSymbols& symbols() const { return symbols_; }
+  std::size_t time_symbol() const { return 2 * size(); }
+  /// Behind all others: the symbol of the factor of scaled_force and scaled_velocity, and those of the momenta of both
+  /// coordinates of the time, of which H + E does not contain the second.
+  std::size_t factor_symbol() const { return symbols_.names.size(); }
+  std::size_t time_momentum_symbol() const { return symbols_.names.size() + 1; }
+  /// The symbols of the i-th coordinate and of its momentum, i < degrees().
+  std::size_t position_symbol(std::size_t i) const { return i < size() ? i : time_symbol(); }
+  std::size_t momentum_symbol(std::size_t i) const {
+    return i < size() ? size() + i : time_momentum_symbol() + (i - size());
+  }
+  /// Of a parameter symbol: its name and its place in the list.
+  struct ParameterPlace {
+    std::string name;
+    std::size_t index;
+  };
+  const ParameterPlace& parameter(int symbol) const {
+    return places_.at(static_cast<std::size_t>(symbol) - 2 * size() - 1);
+  }
+  const std::vector<ParameterPlace>& parameters() const { return places_; }
+
+  std::shared_ptr<const Code> energy, kinetic, potential, velocity, force, gradient;  // gradient: dH/dq, then dH/dp
+  std::shared_ptr<const Code> invariant_values;
+  /// Of constraints: g; g', row by row, of all degrees(); g''(p, p), with a velocity in place of p.
+  std::shared_ptr<const Code> constraints, constraint_gradients, constraint_bends;
+  /// Of a force that is one scalar times the position, as in central fields: factor f, factor v, where the factor meets
+  /// the constants (core/derivatives.hpp); else null.
+  std::shared_ptr<const Code> scaled_force, scaled_velocity;
+  /// Second derivatives, made when they are first asked for.
+  const HessianCode& hessian() const;
+  const ForceAndHessianCode& force_and_hessian() const;
+
+ private:
+  struct Derivation;
+  /// @param values the nodes of g in the graph
+  void derive_constraints(const std::vector<int>& values);
+
+  std::vector<std::string> coordinates_;
+  std::vector<std::string> momenta_;
+  std::vector<std::string> invariant_names_;
+  FormulaSymbols symbols_;
+  std::vector<ParameterPlace> places_;
+  FormulaStructure structure_;
+  std::string label_;
+  std::unique_ptr<Derivation> derivation_;
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<HessianCode> hessian_;
+  mutable std::unique_ptr<ForceAndHessianCode> force_and_hessian_;
+};
+
+}  // namespace formula
+}  // namespace hamflow

@@ -1,0 +1,52 @@
+// The steps of a block's members as one loop: their programs are the same but for constants, and what differs is a
+// number for each lane. A loop is kept for the blocks that come after.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/recorded_step.hpp"
+#include "numerics/program_lanes.hpp"
+
+namespace hamflow {
+
+class FamilyLoop {
+ public:
+  /// Of each member, in the order of lanes; the last one stands for lanes without a member.
+  using Steps = std::vector<std::shared_ptr<const RecordedStep>>;
+  /// Makes a program of a member's, by appending constants that are the same for all. Nothing: it cannot.
+  using Make = std::function<std::optional<Program>(const Program&)>;
+
+  /// @param registers to a number, as make_lane_loop has them
+  explicit FamilyLoop(LaneSet lanes, std::size_t registers = 4) : set_(lanes), registers_(registers) {}
+
+  /// @return false where the members' steps differ in more than constants, or the program cannot be made
+  bool load(const Steps& steps, const Make& make = {});
+  std::size_t lanes() const { return lanes_; }
+  /// @param carried values of the program that was made x lanes(), as LaneLoop has them
+  /// @return how many steps were taken, see LaneLoop
+  std::int64_t run(LaneNumbers& carried, std::int64_t steps, std::span<bool> failed) const {
+    return loop_->run(carried, constants_, steps, failed);
+  }
+  /// For lanes with other members of those that were loaded.
+  LaneNumbers constants(const Steps& steps) const;
+  void run(LaneNumbers& carried, const LaneNumbers& constants, std::span<bool> failed) const {
+    loop_->run(carried, constants, 1, failed);
+  }
+
+ private:
+  bool serves(const Program& program, const std::vector<bool>& differ) const;
+  bool make_loop(const Program& program, const Make& make);
+
+  LaneSet set_;
+  std::size_t registers_;
+  std::shared_ptr<const RecordedStep> first_;  // of the loop
+  std::vector<bool> differs_;                  // of each of its constants
+  std::unique_ptr<const LaneLoop> loop_;
+  std::size_t lanes_ = 0;
+  LaneNumbers constants_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,55 @@
+// The discrete gradient of coordinate increments.
+#pragma once
+
+#include <any>
+
+#include "hamflow/detail/run/method_family.hpp"
+#include "hamflow/methods/itoh_abe.hpp"
+#include "methods/newton_family.hpp"
+
+namespace hamflow::families {
+
+struct ItohAbe {
+  static const BoundOptions<NewtonOptions>& options() {
+    static const BoundOptions<NewtonOptions> all = [] {
+      BoundOptions<NewtonOptions> list;
+      add_newton_options(list);
+      return list;
+    }();
+    return all;
+  }
+
+  static MethodFamily declared() {
+    return {
+        .name = "itoh-abe",
+        .meaning =
+            "the coordinate increments of Itoh and Abe: conserves any H, made of its values, solved with its "
+            "derivatives, order 1",
+        .methods = {"itoh-abe"},
+        .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
+        .rank = 2,
+        .not_on_lattice = "an implicit step is no bijection of the lattice",
+        .describe = [](std::size_t, const Texts& given) { return hamflow::ItohAbe{read(given)}.info(); },
+        .needs = [](std::size_t) { return "a twice differentiable H whose formula can be recorded"; },
+        .advice =
+            [](std::size_t) {
+              return MethodAdvice{
+                  .take = "a map that conserves the energy and is made of values of H alone is to be compared",
+                  .avoid =
+                      "the solution has to be right or the way back to be found: cg, of order 2 and more, symmetric"};
+            },
+        .refused = [](const Texts& given) { return refused_together(options(), given); },
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::ItohAbe{std::any_cast<const NewtonOptions&>(given)});
+  }
+
+ private:
+  static NewtonOptions read(const Texts& given) { return read_newton(options(), given); }
+};
+
+}  // namespace hamflow::families

@@ -1,0 +1,130 @@
+#include "walled_problem.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <tuple>
+
+#include "engine/made_entries.hpp"
+#include "hamflow/run/state_names.hpp"
+#include "soft_energy.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Choices = std::map<std::string, std::string>;
+
+/// Whether a formula names a symbol.
+bool names(const std::string& formula, std::string symbol) {
+  symbol = symbol.substr(0, symbol.find('['));
+  std::string word;
+  for (const char c : formula + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      word += c;
+    } else {
+      if (word == symbol) return true;
+      word.clear();
+    }
+  }
+  return false;
+}
+
+/// A wall turns one momentum round: what does not depend on it is left. Of declared invariants only a single momentum
+/// is known not to, that of the last coordinate, which is the cyclic one; of typed ones the formula tells.
+bool leaves(const ProblemEntry& problem, const InvariantInfo& invariant, const Walls::Interval& wall) {
+  if (problem.structure) {
+    const auto momentum =
+        wall.index < problem.momenta.size() ? problem.momenta[wall.index] : momentum_name(wall.coordinate);
+    return !names(invariant.meaning, momentum);
+  }
+  return invariant.terms == Terms::momentum && wall.index + 1 < problem.info.coordinates.size();
+}
+
+std::vector<bool> kept_of(const ProblemEntry& problem, const Walls& walls) {
+  std::vector<bool> kept;
+  for (const InvariantInfo& invariant : problem.info.invariants) {
+    kept.push_back(std::all_of(walls.intervals.begin(), walls.intervals.end(),
+                               [&](const Walls::Interval& wall) { return leaves(problem, invariant, wall); }));
+  }
+  return kept;
+}
+
+namespace {
+/// A half of the edge of a box as a number; of walls that somebody typed, what was typed.
+std::string readable_wall(const std::string& text) {
+  return text.starts_with("(") || text.starts_with("-(") ? shortest(number_value(text)) : text;
+}
+}  // namespace
+
+std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
+  for (const Walls::Interval& wall : walls.intervals) {
+    const double x = q.at(wall.index);
+    const bool below = !wall.min.empty() && (walls.hard() ? x < number_value(wall.min) : x <= number_value(wall.min));
+    const bool above = !wall.max.empty() && (walls.hard() ? x > number_value(wall.max) : x >= number_value(wall.max));
+    if (!below && !above) continue;
+    return wall.coordinate + " = " + shortest(x) + (walls.hard() ? " beyond" : " on or beyond") + " the wall at " +
+           readable_wall(below ? wall.min : wall.max) + "; allowed a start between the walls, " +
+           (wall.min.empty()   ? "at most " + readable_wall(wall.max)
+            : wall.max.empty() ? "at least " + readable_wall(wall.min)
+                               : "from " + readable_wall(wall.min) + " to " + readable_wall(wall.max));
+  }
+  return {};
+}
+
+ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
+  ProblemEntry e = problem;
+  e.walls = walls;
+  e.info.chart_key.clear();
+  e.info.invariants.clear();
+  const std::vector<bool> kept = kept_of(problem, walls);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k]) e.info.invariants.push_back(problem.info.invariants[k]);
+  }
+  e.invariant_sizes = [inner = problem.invariant_sizes, kept](const Texts& parameters, std::size_t size) {
+    std::vector<std::size_t> sizes;
+    const std::vector<std::size_t> all = inner(parameters, size);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (kept.at(k)) sizes.push_back(all[k]);
+    }
+    return sizes;
+  };
+  // What is known of the motion without walls.
+  e.exact = nullptr;
+  e.exact_radius = nullptr;
+  e.describe_orbit = nullptr;
+  e.to_reference = nullptr;
+  e.from_reference = nullptr;
+  // Kernels that are compiled with a problem know no walls.
+  e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
+  e.refused_start = [inner = problem.refused_start, walls](const Texts& parameters, const std::vector<double>& q) {
+    const std::string beyond = beyond_walls(walls, q);
+    return beyond.empty() ? inner(parameters, q) : beyond;
+  };
+  if (walls.hard()) return e;
+  // A charge that is turned, and forces of pairs alone, know no other term of V.
+  e.accepts = [inner = problem.accepts](const MethodSpec& method) {
+    return method.name != "boris" && method.name != "eg" && inner(method);
+  };
+  e.energy = [inner = problem.energy, walls](const Texts& parameters, const std::vector<double>& q,
+                                             const std::vector<double>& p) {
+    return inner(parameters, q, p) + soft_energy<double>(walls, q);
+  };
+  return e;
+}
+
+}  // namespace
+
+std::vector<bool> kept_invariants(const Request& request, const Walls& walls) {
+  return kept_of(*find_problem(request.problem, request.variant), walls);
+}
+
+std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name, const Choices& choices,
+                                                   const Walls& walls) {
+  static MadeEntries<std::tuple<std::string, Choices, Walls>> made;
+  const std::shared_ptr<const ProblemEntry> problem = find_problem(name, choices);
+  return made.find({name, choices, walls}, [&] { return entry_behind(*problem, walls); });
+}
+
+}  // namespace hamflow
