@@ -96,7 +96,12 @@ ExampleInfo example_for(const ProblemEntry& problem) {
 int new_command(const NewOptions& options) {
   return guarded(false, [&] {
     const std::shared_ptr<const ProblemEntry> problem = chosen(options);
-    std::cout << scenario_template(*problem, example_for(*problem));
+    MethodSpec method{.name = ""};
+    if (!options.method.empty()) {
+      method = parse_method(options.method);
+      if (const std::string why_not = refusal(method, *problem); !why_not.empty()) throw Rejection("--method", why_not);
+    }
+    std::cout << scenario_template(*problem, example_for(*problem), method, options.all);
     return exit_done;
   });
 }

@@ -73,6 +73,8 @@ int certify_command(const CertifyOptions& options);
 struct NewOptions {
   std::string problem;
   std::map<std::string, std::string> variant;  // e.g. potential = kepler; empty: not given
+  std::string method;                          // with its options; empty: the usual one
+  bool all = false;                            // every key, not those alone that are set
 };
 int new_command(const NewOptions& options);
 
@@ -124,6 +126,8 @@ int shell_command(const ShellOptions& options);
 /// Starts hamflow-reproduce with these arguments; returns only where that fails.
 int reproduce_command(const std::vector<std::string>& arguments);
 
+/// @param name a run, a scenario file, a method or a problem
+int cite_command(const std::string& name);
 int list_command(const std::string& what, bool all, bool json);
 /// @param folder of a reproduction, for an experiment; empty: the one that `reproduce` writes into
 int show_command(const std::string& name, const std::string& folder);

@@ -251,13 +251,18 @@ int main(int argc, char** argv) {
   shell_command->callback([&] { status = hamflow::app::shell_command(shell); });
 
   NewOptions fresh;
-  CLI::App* new_command = add(app, "new", "Print a scenario for a problem, every key of it explained",
+  CLI::App* new_command = add(app, "new", "Print a scenario for a problem, to begin with",
                               "  hamflow new central-force > my.toml && hamflow run my.toml\n"
+                              "  hamflow new henon-heiles --method 'cg(2,6)' --all > all.toml\n"
                               "  hamflow new central-force --potential hooke --coordinates polar > hooke.toml\n");
   new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
   for (const auto& [key, owners] : problems_by_choice()) {
     new_command->add_option("--" + key, fresh.variant[key], "of " + hamflow::joined(owners));
   }
+  new_command->add_option("--method", fresh.method, "with its options, e.g. 'cg(2,6)' [the usual one]")
+      ->type_name("METHOD");
+  new_command->add_flag("--all", fresh.all,
+                        "every key of the problem and the method, those that are not set as comments");
   new_command->callback([&] { status = hamflow::app::new_command(fresh); });
 
   ConvertOptions convert;
@@ -305,6 +310,14 @@ int main(int argc, char** argv) {
                    "of an experiment: the folder into which it was carried out, with its claims [reproduce]")
       ->type_name("DIR");
   show_command->callback([&] { status = hamflow::app::show_command(name, shown_folder); });
+
+  std::string cited;
+  CLI::App* cite_command = add(app, "cite", "Print the works behind a run, a method or a problem, as BibTeX",
+                               "  hamflow cite kepler.run > works.bib\n  hamflow cite kahan-li8\n");
+  cite_command->add_option("name", cited, "the folder of a run, a scenario file, a method or a problem")
+      ->required()
+      ->type_name("NAME");
+  cite_command->callback([&] { status = hamflow::app::cite_command(cited); });
 
   if (argc > 1 && std::string(argv[1]) == "reproduce") return written_out(reproduce_command({argv + 2, argv + argc}));
   try {

@@ -1,13 +1,13 @@
-// Between the typed problems and the methods that are compiled once for each number type (src/engine/any_problem.hpp).
+// Between the typed problems and the methods that are compiled once for each number type (detail/run/any_problem.hpp).
 #pragma once
 
 #include <memory>
 
-#include "any_problem.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/detail/core/tape.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 #include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/catalog.hpp"
 

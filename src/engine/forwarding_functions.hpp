@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "any_problem.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 
 namespace hamflow {
 

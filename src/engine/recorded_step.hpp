@@ -7,11 +7,11 @@
 #include <optional>
 #include <span>
 
-#include "any_problem.hpp"
 #include "carried.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/detail/core/step_clock.hpp"
 #include "hamflow/detail/methods/step_density.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 #include "hamflow/detail/run/probe.hpp"
 #include "hamflow/detail/run/steps_in_parts.hpp"
 #include "hamflow/methods/recipe.hpp"

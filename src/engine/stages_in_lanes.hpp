@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
-#include "any_problem.hpp"
 #include "hamflow/detail/methods/implicit/average_table.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 #include "numerics/program_lanes.hpp"
 
 namespace hamflow {

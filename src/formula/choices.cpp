@@ -6,7 +6,7 @@
 #include "core/text_place.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/detail/core/syntax.hpp"
-#include "model.hpp"
+#include "hamflow/detail/formula/model.hpp"
 #include "names.hpp"
 
 namespace hamflow {

@@ -1,4 +1,4 @@
-#include "model.hpp"
+#include "hamflow/detail/formula/model.hpp"
 
 #include <algorithm>
 #include <set>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/erased.hpp"
-#include "formula/model.hpp"
 #include "gas_system.hpp"
+#include "hamflow/detail/formula/model.hpp"
 #include "pair_list.hpp"  // generated from the folder of pair laws
 
 namespace hamflow {

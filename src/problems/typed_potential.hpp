@@ -2,7 +2,7 @@
 // turning points, starts by energy and the facts of an orbit, is found for it as for those that are built in.
 #pragma once
 
-#include "formula/bound_model.hpp"
+#include "hamflow/detail/formula/bound_model.hpp"
 #include "hamflow/detail/problems/potential.hpp"
 
 namespace hamflow {

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "constrained_problems.hpp"
-#include "formula/model.hpp"
+#include "hamflow/detail/formula/model.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {

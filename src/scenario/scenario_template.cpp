@@ -35,14 +35,23 @@ std::string rounded_list(const std::vector<double>& numbers) { return "[" + join
 /// Lines of code with comments beside them, aligned within a block.
 class Page {
  public:
+  /// @param all false: lines that are set alone, without prose
+  explicit Page(bool all) : all_(all) {}
   void line(const std::string& code, const std::string& comment = "") { block_.emplace_back(code, comment); }
   /// A key that is not set.
-  void off(const std::string& code, const std::string& comment) { line("# " + code, comment); }
+  void off(const std::string& code, const std::string& comment) {
+    if (all_) line("# " + code, comment);
+  }
   /// Full lines of comment, broken between words.
   void prose(const std::string& text) {
+    if (all_) heading(text);
+  }
+  /// The same, in the short form too.
+  void heading(const std::string& text) {
     end_block();
     write_prose(text);
   }
+  bool all() const { return all_; }
   void section(const std::string& name) {
     end_block();
     text_ += (text_.empty() ? "" : "\n") + ("[" + name + "]\n");
@@ -86,6 +95,7 @@ class Page {
     }
     block_.clear();
   }
+  bool all_;
   std::string text_;
   std::vector<std::pair<std::string, std::string>> block_;
 };
@@ -130,24 +140,31 @@ std::string difference(const StartExample& start, const Texts& active) {
 
 class TemplateWriter {
  public:
-  TemplateWriter(const ProblemEntry& problem, const ExampleInfo& example)
+  TemplateWriter(const ProblemEntry& problem, const ExampleInfo& example, MethodSpec method, bool all)
       : problem_(problem),
         info_(problem.info),
         example_(example),
-        parameters_(complete(problem.info, example.parameters)) {
-    choose_method();
+        parameters_(complete(problem.info, example.parameters)),
+        method_(std::move(method)),
+        page_(all) {
+    if (method_.name.empty()) choose_method();
     find_starts();
   }
 
   std::string write() {
     page_.prose("A scenario for hamflow run. hamflow show " + info_.name + " says the same in other words.");
-    page_.prose(info_.formula);
+    page_.heading(info_.formula);
     page_.prose("Source: " + info_.reference);
-    page_.prose("Numbers may also be texts such as \"1/3\" or \"2*pi/100\". What stands behind # is not set.");
+    page_.prose(
+        "Numbers may also be texts such as \"1/3\" or \"2*pi/100\". Lines that start with # are optional settings.");
     write_problem();
     write_method();
     write_run();
     write_output();
+    if (!page_.all()) {
+      page_.heading("All keys: hamflow new " + info_.name + " --all. About the method: hamflow show " + method_.name +
+                    ". Others: hamflow list methods");
+    }
     return page_.text();
   }
 
@@ -212,8 +229,13 @@ class TemplateWriter {
     write_walls();
   }
 
+  /// The short form gives the meaning of a key alone.
+  std::string comment_on(const OptionInfo& option) const {
+    return page_.all() ? explained_with_default(option) : option.meaning;
+  }
+
   void write_parameter(const ParameterInfo& parameter) {
-    const std::string comment = explained_with_default(parameter);
+    const std::string comment = comment_on(parameter);
     const std::string value = parameters_.at(parameter.name);
     if (active_ != nullptr && derives(*active_, parameter.name)) {
       page_.off(parameter.name + " = " + toml_text(parameter, value), comment + "; here it follows from the orbit");
@@ -258,8 +280,8 @@ class TemplateWriter {
     write_walls();
     if (info_.two_bodies) {
       page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
-      page_.line("# bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },");
-      page_.line("#           { mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]");
+      page_.off("bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },", "");
+      page_.off("          { mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]", "");
     }
   }
 
@@ -316,8 +338,10 @@ class TemplateWriter {
     page_.prose("Allowed here: " + joined(names) + ". More about one: hamflow show NAME");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);
     const MethodFamily* const chosen = find_method(method_.name).family;
-    for (const OptionInfo& option : chosen->options) {
-      write_option(option, option.position > 0 && !option.default_value.empty());
+    for (OptionInfo option : chosen->options) {
+      const auto given = method_.options.find(option.name);
+      if (given != method_.options.end()) option.example = option.default_value = given->second;
+      write_option(option, given != method_.options.end() || (option.position > 0 && !option.default_value.empty()));
       explained_options_.insert(explained_with_default(option));
     }
     for (const MethodFamily& family : method_families()) {
@@ -344,7 +368,7 @@ class TemplateWriter {
 
   void write_option(const OptionInfo& option, bool set) {
     const std::string code = option.name + " = " + example_text(option);
-    set ? page_.line(code, explained_with_default(option)) : page_.off(code, explained_with_default(option));
+    set ? page_.line(code, comment_on(option)) : page_.off(code, comment_on(option));
   }
 
   /// [run] as declared, with the numbers of the example, and without what this problem or its method refuses.
@@ -435,8 +459,9 @@ class TemplateWriter {
 
 }  // namespace
 
-std::string scenario_template(const ProblemEntry& problem, const ExampleInfo& example) {
-  return TemplateWriter(problem, example).write();
+std::string scenario_template(const ProblemEntry& problem, const ExampleInfo& example, const MethodSpec& method,
+                              bool all) {
+  return TemplateWriter(problem, example, method, all).write();
 }
 
 }  // namespace hamflow

@@ -2,8 +2,8 @@
 // nothing else. Whatever is not ordinary is left to WallEvents.
 #pragma once
 
-#include "engine/any_problem.hpp"
 #include "engine/parts_in_numbers.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 #include "wall_search.hpp"
 
 namespace hamflow {

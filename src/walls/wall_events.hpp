@@ -1,7 +1,7 @@
 // The flight of a simulation to the wall that it meets first, and what becomes of the momentum there.
 #pragma once
 
-#include "engine/any_problem.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 #include "hamflow/detail/run/steps_in_parts.hpp"
 #include "wall_search.hpp"
 

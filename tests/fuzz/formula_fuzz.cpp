@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "formula/bound_model.hpp"
+#include "hamflow/detail/formula/bound_model.hpp"
 
 namespace {
 

@@ -3,13 +3,13 @@
 #include <string>
 
 #include "../support/near.hpp"
-#include "engine/any_problem.hpp"
 #include "engine/reference_flow.hpp"
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/detail/problems/gravity.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 #include "hamflow/methods/dop853.hpp"
 #include "hamflow/methods/taylor.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
@@ -347,7 +347,7 @@ TEST(Adaptive, more_digits_are_used) {
   expect_digits_on_kepler<Mp>(Taylor{{.tolerance = 1e-55}}, 50);
 }
 
-/// Behind virtual calls (src/engine/any_problem.hpp) the same bits, and dual numbers pass there, too.
+/// Behind virtual calls (detail/run/any_problem.hpp) the same bits, and dual numbers pass there, too.
 template <class P, class Recipe>
 void expect_same_behind_virtual_calls(const P& problem, const Recipe& recipe) {
   using Any = AnyProblem<double, capabilities_of<P>(), Trace<double>, Dual<double, 1>>;

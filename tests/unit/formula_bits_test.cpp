@@ -5,8 +5,8 @@
 #include <random>
 
 #include "../support/near.hpp"
-#include "formula/bound_model.hpp"
 #include "hamflow/core/derivatives.hpp"
+#include "hamflow/detail/formula/bound_model.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/duffing.hpp"
 #include "hamflow/problems/harmonic.hpp"

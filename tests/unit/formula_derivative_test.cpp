@@ -3,7 +3,7 @@
 #include <random>
 
 #include "../support/near.hpp"
-#include "formula/bound_model.hpp"
+#include "hamflow/detail/formula/bound_model.hpp"
 
 namespace hamflow {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "hamflow/core/constraints.hpp"
 #include "hamflow/core/vector.hpp"
-#include "model.hpp"
+#include "hamflow/detail/formula/model.hpp"
 
 namespace hamflow::formula {
 

@@ -1,9 +1,9 @@
-// The functions of a typed Hamiltonian behind virtual calls (src/engine/any_problem.hpp): what it offers is known when
+// The functions of a typed Hamiltonian behind virtual calls (detail/run/any_problem.hpp): what it offers is known when
 // its text has been read, not when this is compiled.
 #pragma once
 
-#include "any_problem.hpp"
-#include "formula/bound_model.hpp"
+#include "hamflow/detail/formula/bound_model.hpp"
+#include "hamflow/detail/run/any_problem.hpp"
 
 namespace hamflow {
 

@@ -10,7 +10,7 @@
 // formula_choices(texts).
 #pragma once
 
-#include "formula_functions.hpp"
+#include "hamflow/detail/run/formula_functions.hpp"
 
 namespace hamflow {
 
