@@ -163,6 +163,7 @@
 #include "hamflow/methods/tao.hpp"
 #include "hamflow/methods/tape_of_motion.hpp"
 #include "hamflow/methods/taylor.hpp"
+#include "hamflow/methods/wisdom_holman.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/numerics/elimination.hpp"
 #include "hamflow/numerics/elliptic.hpp"

@@ -8,7 +8,7 @@
 
 #include "hamflow/core/two.hpp"
 #include "hamflow/core/vector.hpp"
-#include "hamflow/orbits/stumpff.hpp"
+#include "hamflow/orbits/universal_kepler.hpp"
 
 namespace hamflow {
 
@@ -107,9 +107,14 @@ OrbitalElements<R> elements_of(const Vector<R, 3>& r, const Vector<R, 3>& v, con
   const R beta = R(2) * mu * inverse_distance - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 
   // The plane.
-  const R hx = r[1] * v[2] - r[2] * v[1];
-  const R hy = r[2] * v[0] - r[0] * v[2];
-  const R hz = r[0] * v[1] - r[1] * v[0];
+  // Far out r and v are nearly parallel, and the products cancel.
+  using Careful = typename CarefulNumber<R>::type;
+  const auto area = [&](std::size_t i, std::size_t k) {
+    return static_cast<R>(Careful(r[i]) * Careful(v[k]) - Careful(r[k]) * Careful(v[i]));
+  };
+  const R hx = area(1, 2);
+  const R hy = area(2, 0);
+  const R hz = area(0, 1);
   const R square_in_plane = hx * hx + hy * hy;
   const R in_plane = sqrt(square_in_plane);
   const R square_of_h = square_in_plane + hz * hz;
