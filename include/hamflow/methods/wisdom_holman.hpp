@@ -1,0 +1,279 @@
+// The Wisdom-Holman map in Jacobi coordinates: H = A + B, A the Kepler motions about the centre of mass of the bodies
+// before, B the interaction, which is smaller by the masses of the planets.   [WisdomHolman1991]
+//
+// r'_i is the position of body i from the centre of mass of the bodies before it; M_i = m_0 + ... + m_i:
+//     A = P^2/(2 M) + sum_i (p'_i^2/(2 m'_i) - G m_i M_(i-1)/r'_i),   m'_i = m_i M_(i-1)/M_i,
+//     B = sum_(i >= 1) G m_i M_(i-1)/r'_i - sum_(i < j) G m_i m_j/r_ij.
+// In A body i moves on a conic about mu = G M_i. In B the pair of the first two bodies cancels exactly. Massless bodies
+// are placed from the centre of mass of all others, and pull nobody.
+//
+// A step of dt is A(dt/2) B(dt) A(dt/2). With the lazy kernel the forces of B are those at r + (dt^2/12) a, a the
+// acceleration of B: together with a corrector that removes the error proportional to the square of the planets' masses
+// at the lowest order in dt.   [WisdomEtAl1996; ReinEtAl2019] The corrector is a change of variables that removes the
+// error linear in these masses.   [Wisdom2006]
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/vector.hpp"
+#include "hamflow/orbits/kepler_drift.hpp"
+
+namespace hamflow {
+
+enum class WisdomHolmanKernel { standard, lazy };
+
+/// b_1 ... b_m of a corrector with m pairs of stages: the solution of
+///     4 sum_k b_k (k sqrt(7/40))^n/n! = (1 - 2^-n) B_(n+1)/(n+1)!, n = 1, 3, ..., 2 m - 1, B the Bernoulli numbers.
+/// @param stages from 1 to 8
+template <class R>
+std::vector<R> corrector_weights(std::size_t stages) {
+  // With w_k = k b_k the matrix is Vandermonde's of the squares k^2, which is solved without loss of digits.
+  // [BjorckPereyra1970]
+  constexpr int numerator[8] = {1, -1, 1, -1, 5, -691, 7, -3617};  // B_2, B_4, ...
+  constexpr int denominator[8] = {6, 30, 42, 30, 66, 2730, 6, 510};
+  const R unit = sqrt(R(7) / R(40));
+  std::vector<R> w;
+  R power = R(4) * unit;  // 4 unit^n
+  R half(0.5);            // 2^-n
+  for (std::size_t j = 0; j < stages; ++j) {
+    const R order(static_cast<int>(2 * j + 2));
+    w.push_back((R(1) - half) * R(numerator[j]) / (R(denominator[j]) * order * power));
+    power = power * R(7) / R(40);
+    half = half / R(4);
+  }
+  const auto node = [](std::size_t k) { return R(static_cast<int>((k + 1) * (k + 1))); };
+  for (std::size_t k = 0; k + 1 < stages; ++k) {
+    for (std::size_t i = stages - 1; i > k; --i) w[i] -= node(k) * w[i - 1];
+  }
+  for (std::size_t k = stages - 1; k-- > 0;) {
+    for (std::size_t i = k + 1; i < stages; ++i) w[i] = w[i] / (node(i) - node(i - k - 1));
+    for (std::size_t i = k; i + 1 < stages; ++i) w[i] -= w[i + 1];
+  }
+  for (std::size_t k = 0; k < stages; ++k) w[k] = w[k] / R(static_cast<int>(k + 1));
+  return w;
+}
+
+/// Positions and velocities in Jacobi coordinates, and what has been added to them since they were made. The first
+/// entry is the centre of mass.
+template <class R>
+struct JacobiState {
+  using Space = Vector<R, 3>;
+  std::vector<Space> r;
+  std::vector<Space> v;
+  std::vector<Space> added_r;
+  std::vector<Space> added_v;
+};
+
+/// Bodies of given masses in Jacobi coordinates, and the two parts of their motion.
+template <class R>
+class JacobiSplitting {
+ public:
+  using Space = Vector<R, 3>;
+  using Spaces = std::vector<Space>;
+
+  /// @param masses the heaviest first; 0: a massless body
+  JacobiSplitting(std::vector<R> masses, const R& gravitational_constant)
+      : constant_(gravitational_constant), total_(R(0)), masses_(std::move(masses)) {
+    share_.resize(masses_.size());
+    attraction_.resize(masses_.size());
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      if (!(R(0) < masses_[i])) continue;
+      massive_.push_back(i);
+      total_ += masses_[i];
+      share_[i] = masses_[i] / total_;
+      attraction_[i] = constant_ * total_;
+    }
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      if (R(0) < masses_[i]) continue;
+      massless_.push_back(i);
+      attraction_[i] = constant_ * total_;
+    }
+  }
+
+  /// Of positions; and, as the map is linear, of velocities and accelerations. In the order of the bodies, the centre
+  /// of mass in the place of the first massive one.
+  Spaces jacobi_of(const Spaces& inertial) const {
+    Spaces out;
+    jacobi_of(inertial, out);
+    return out;
+  }
+  void jacobi_of(const Spaces& inertial, Spaces& out) const {
+    out.resize(inertial.size());
+    Space centre = inertial[massive_[0]];
+    for (std::size_t j = 1; j < massive_.size(); ++j) {
+      const std::size_t i = massive_[j];
+      for (std::size_t k = 0; k < 3; ++k) {
+        out[i][k] = inertial[i][k] - centre[k];
+        centre[k] += share_[i] * out[i][k];
+      }
+    }
+    for (const std::size_t i : massless_) {
+      for (std::size_t k = 0; k < 3; ++k) out[i][k] = inertial[i][k] - centre[k];
+    }
+    out[massive_[0]] = centre;
+  }
+  Spaces inertial_of(const Spaces& jacobi) const {
+    Spaces out;
+    inertial_of(jacobi, out);
+    return out;
+  }
+  void inertial_of(const Spaces& jacobi, Spaces& out) const {
+    out.resize(jacobi.size());
+    Space centre = jacobi[massive_[0]];
+    for (const std::size_t i : massless_) {
+      for (std::size_t k = 0; k < 3; ++k) out[i][k] = jacobi[i][k] + centre[k];
+    }
+    for (std::size_t j = massive_.size(); j-- > 1;) {
+      const std::size_t i = massive_[j];
+      for (std::size_t k = 0; k < 3; ++k) {
+        centre[k] -= share_[i] * jacobi[i][k];
+        out[i][k] = centre[k] + jacobi[i][k];
+      }
+    }
+    out[massive_[0]] = centre;
+  }
+
+  JacobiState<R> state_of(const Spaces& positions, const Spaces& velocities) const {
+    const Spaces none(positions.size());
+    return {jacobi_of(positions), jacobi_of(velocities), none, none};
+  }
+
+  /// A over a time h. The state is changed in part where the outcome is not `done`.
+  Outcome drift(JacobiState<R>& state, const R& h) const {
+    const std::size_t first = massive_[0];
+    for (std::size_t k = 0; k < 3; ++k) add(state.r[first][k], state.added_r[first][k], h * state.v[first][k]);
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      if (i == first) continue;
+      KeplerIncrements<R, 3> by;
+      const Outcome outcome = kepler_drift(state.r[i], state.v[i], attraction_[i], h, by);
+      if (outcome != Outcome::done) return outcome;
+      for (std::size_t k = 0; k < 3; ++k) {
+        add(state.r[i][k], state.added_r[i][k], by.position[k]);
+        add(state.r[i][k], state.added_r[i][k], by.position_rest[k]);
+        add(state.v[i][k], state.added_v[i][k], by.velocity[k]);
+        add(state.v[i][k], state.added_v[i][k], by.velocity_rest[k]);
+      }
+    }
+    return Outcome::done;
+  }
+
+  /// B over a time h.
+  void kick(JacobiState<R>& state, const R& h) {
+    interaction(state.r);
+    push(state, h);
+  }
+
+  /// B over a time h, with the forces at r + (h^2/12) a.
+  void lazy_kick(JacobiState<R>& state, const R& h) {
+    interaction(state.r);
+    moved_ = state.r;
+    const R factor = h * h / R(12);
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) moved_[i][k] += factor * acceleration_[i][k];
+    }
+    interaction(moved_);
+    push(state, h);
+  }
+
+  Outcome step(JacobiState<R>& state, const R& h, WisdomHolmanKernel kernel) {
+    const R half = h / R(2);
+    Outcome outcome = drift(state, half);
+    if (outcome != Outcome::done) return outcome;
+    if (kernel == WisdomHolmanKernel::lazy) {
+      lazy_kick(state, h);
+    } else {
+      kick(state, h);
+    }
+    return drift(state, half);
+  }
+
+  /// C = Z(-m) ... Z(-1) Z(1) ... Z(m) from left to right, Z(k) = A(k s) B(-b_k dt) A(-2 k s) B(b_k dt) A(k s), s =
+  /// sqrt(7/40) dt, b_-k = -b_k: to the variables in which the map runs. Undone with the weights negated.
+  Outcome correct(JacobiState<R>& state, const R& dt, const std::vector<R>& weights) {
+    const int stages = static_cast<int>(weights.size());
+    const R unit = sqrt(R(7) / R(40)) * dt;
+    for (int k = -stages; k <= stages; ++k) {
+      if (k == 0) continue;
+      const R move = R(k) * unit;
+      const R push_by = (k < 0 ? R(-1) : R(1)) * weights[static_cast<std::size_t>(k < 0 ? -k : k) - 1] * dt;
+      Outcome outcome = drift(state, move);
+      if (outcome != Outcome::done) return outcome;
+      kick(state, -push_by);
+      outcome = drift(state, R(-2) * move);
+      if (outcome != Outcome::done) return outcome;
+      kick(state, push_by);
+      outcome = drift(state, move);
+      if (outcome != Outcome::done) return outcome;
+    }
+    return Outcome::done;
+  }
+
+ private:
+  static void add(R& value, R& added, const R& increment) {
+    value += increment;
+    added += increment;
+  }
+
+  void push(JacobiState<R>& state, const R& h) const {
+    for (std::size_t i = 0; i < acceleration_.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) add(state.v[i][k], state.added_v[i][k], h * acceleration_[i][k]);
+    }
+  }
+
+  /// The acceleration of B, in Jacobi coordinates, becomes acceleration_.
+  void interaction(const Spaces& jacobi) {
+    const std::size_t first = massive_[0];
+    relative_ = jacobi;
+    relative_[first] = {};  // the centre of mass, far from which differences would lose digits
+    Spaces& r = inertial_;
+    inertial_of(relative_, r);
+    pulls_.assign(r.size(), {});
+    const auto attract = [&](std::size_t i, std::size_t j) {
+      Space d;
+      R square(0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        d[k] = r[j][k] - r[i][k];
+        square += d[k] * d[k];
+      }
+      const R factor = constant_ / (square * sqrt(square));
+      for (std::size_t k = 0; k < 3; ++k) {
+        pulls_[i][k] += factor * masses_[j] * d[k];
+        pulls_[j][k] -= factor * masses_[i] * d[k];
+      }
+    };
+    for (std::size_t a = 0; a < massive_.size(); ++a) {
+      for (std::size_t b = a + 1; b < massive_.size(); ++b) {
+        if (a != 0 || b != 1) attract(massive_[a], massive_[b]);
+      }
+      for (const std::size_t i : massless_) attract(massive_[a], i);
+    }
+    jacobi_of(pulls_, acceleration_);
+    acceleration_[first] = {};
+    for (std::size_t i = 0; i < jacobi.size(); ++i) {
+      if (i == first || (massive_.size() > 1 && i == massive_[1])) continue;
+      R square(0);
+      for (std::size_t k = 0; k < 3; ++k) square += jacobi[i][k] * jacobi[i][k];
+      const R factor = attraction_[i] / (square * sqrt(square));
+      for (std::size_t k = 0; k < 3; ++k) acceleration_[i][k] += factor * jacobi[i][k];
+    }
+  }
+
+  R constant_;
+  R total_;
+  std::vector<R> masses_;
+  std::vector<R> share_;       // m_i/M_i
+  std::vector<R> attraction_;  // of each body about the centre of mass of those before it, G M_i
+  std::vector<std::size_t> massive_;
+  std::vector<std::size_t> massless_;
+  // Memory of `interaction`, kept from step to step.
+  Spaces acceleration_;
+  Spaces relative_;
+  Spaces inertial_;
+  Spaces pulls_;
+  Spaces moved_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,275 @@
+// The Kepler drift: the motion of two bodies, r'' = -mu r/|r|^3, over any time, on any conic.
+//
+// It returns what is added to r and v. With f - 1 = -mu G2/r0, g = t - mu G3, f' = -mu G1/(r0 r), g' - 1 = -mu G2/r,
+//     dr = (f - 1) r + g v,   dv = f' r + (g' - 1) v,                                         [Danby1988, Sect. 6.9]
+// the increments of a short drift have all their digits, which compensated sums and the lattice keep.
+//
+// In double a short step, below a twelfth of a period or so, takes one straight path of few operations. Everything else
+// is computed in long double: r0, eta and beta are then as exact as r and v themselves, which matters near the
+// parabola, where beta is a small difference, and over many periods, where its error is multiplied.
+#pragma once
+
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/vector.hpp"
+#include "hamflow/orbits/universal_kepler.hpp"
+
+namespace hamflow {
+
+/// What a drift adds to position and velocity. The rests are what the rounding of the increments to R has lost, where
+/// that is known and matters: after a long drift that ends much nearer to the centre than it began.
+template <class R, std::size_t N>
+struct KeplerIncrements {
+  Vector<R, N> position;
+  Vector<R, N> velocity;
+  Vector<R, N> position_rest{};
+  Vector<R, N> velocity_rest{};
+};
+
+namespace detail {
+
+template <class R, std::size_t N>
+R inner_product(const Vector<R, N>& a, const Vector<R, N>& b) {
+  R sum = a[0] * b[0];
+  for (std::size_t i = 1; i < N; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// |r x v|^2, in any dimension, with the digits of its terms.
+template <class R, std::size_t N>
+R squared_area_rate(const Vector<R, N>& r, const Vector<R, N>& v) {
+  R sum(0);
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t k = i + 1; k < N; ++k) {
+      const R part = r[i] * v[k] - r[k] * v[i];
+      sum += part * part;
+    }
+  }
+  return sum;
+}
+
+/// r and v on the way, and what has been added to them.
+template <class R, std::size_t N>
+struct DriftInParts {
+  Vector<R, N> r;
+  Vector<R, N> v;
+  Vector<R, N> added_r{};
+  Vector<R, N> added_v{};
+
+  void move(const UniversalStart<R>& start, const UniversalTime<R>& end, const R& t) {
+    const R f_less_1 = -start.mu * end.g.g2 / start.r0;
+    const R g = t - start.mu * end.g.g3;
+    const R f_rate = -start.mu * end.g.g1 / (start.r0 * end.distance);
+    const R g_rate_less_1 = -start.mu * end.g.g2 / end.distance;
+    for (std::size_t i = 0; i < N; ++i) {
+      const R to_r = f_less_1 * r[i] + g * v[i];
+      const R to_v = f_rate * r[i] + g_rate_less_1 * v[i];
+      r[i] += to_r;
+      v[i] += to_v;
+      added_r[i] += to_r;
+      added_v[i] += to_v;
+    }
+  }
+};
+
+/// For t > 0. Inbound on a hyperbola at r0 >> mu/|beta|, the terms of Kepler's equation grow like exp(y), y = s
+/// sqrt(-beta), while r decreases like exp(-y) until the pericentre, at y_p: their sum would lose exp(y_p) more than
+/// the motion itself magnifies. So the way in is gone in parts of y = 1 until y_p < 1.44. beta is that of the start
+/// throughout: near the pericentre it would be a small difference.
+template <class R, std::size_t N>
+bool drift_forward(DriftInParts<R, N>& body, const R& mu, const R& beta, R t) {
+  for (;;) {
+    const UniversalStart<R> start{sqrt(inner_product(body.r, body.r)), inner_product(body.r, body.v), mu, beta};
+    UniversalTime<R> end;
+    if (beta < R(0) && start.eta < R(0)) {
+      const R root = sqrt(-beta);
+      const R mu_e = sqrt(mu * mu - beta * squared_area_rate(body.r, body.v));
+      if (R(2) * mu_e < root * -start.eta) {  // sinh 1.44 = 2
+        end = start.at(R(1) / root);
+        if (end.time < t) {
+          body.move(start, end, end.time);
+          t = t - end.time;
+          continue;
+        }
+      }
+    }
+    R s;
+    if (!solve_universal_kepler(start, t, s, end)) return false;
+    body.move(start, end, t);
+    return true;
+  }
+}
+
+template <class R, std::size_t N>
+bool careful_drift(const Vector<R, N>& r, Vector<R, N> v, const R& mu, R t, KeplerIncrements<R, N>& out) {
+  if (!(R(0) <= mu)) return false;
+  if (mu == R(0)) {
+    out.velocity = {};
+    for (std::size_t i = 0; i < N; ++i) out.position[i] = v[i] * t;
+    return true;
+  }
+  const R r0 = sqrt(inner_product(r, r));
+  const R beta = R(2) * mu / r0 - inner_product(v, v);
+  if (R(0) < beta) t = reduced_by_period(t, full_turn<R>() * mu / (beta * sqrt(beta)));
+  const bool backward = t < R(0);  // the motion with -v, forward
+  if (backward) {
+    t = -t;
+    for (std::size_t i = 0; i < N; ++i) v[i] = -v[i];
+  }
+  DriftInParts<R, N> body{r, v};
+  if (!drift_forward(body, mu, beta, t)) return false;
+  for (std::size_t i = 0; i < N; ++i) {
+    out.position[i] = body.added_r[i];
+    out.velocity[i] = backward ? -body.added_v[i] : body.added_v[i];
+  }
+  return true;
+}
+
+/// sum_n coefficient[n] x^n of 8 terms, by pairs, so that fewer operations wait for each other.
+template <class V>
+V sum_of_eight(const double (&c)[8], V x) {
+  const V x2 = x * x;
+  const V low = (c[0] + c[1] * x) + (c[2] + c[3] * x) * x2;
+  const V high = (c[4] + c[5] * x) + (c[6] + c[7] * x) * x2;
+  return low + high * (x2 * x2);
+}
+
+/// A step is short where mu s^2/r0, beta s^2, eta s/r0 and the square of (mu s/r0)/v are below this: less than a
+/// twelfth of a period on a circle. The first term left out of a series is 2^-68 of its sum there, the rounding of r0
+/// and beta is not yet multiplied, and the increments are smaller than what they are added to.
+inline constexpr double short_step = 0.25;
+// (-1)^n/(2 n + 2)! and (-1)^n/(2 n + 3)!.
+inline constexpr double c2_series[8] = {1. / 2,       -1. / 24,        1. / 720,          -1. / 40320,
+                                        1. / 3628800, -1. / 479001600, 1. / 87178291200., -1. / 20922789888000.};
+inline constexpr double c3_series[8] = {1. / 6,        -1. / 120,         1. / 5040,           -1. / 362880,
+                                        1. / 39916800, -1. / 6227020800., 1. / 1307674368000., -1. / 355687428096000.};
+
+/// A short step, in double or in a vector of doubles, one body a lane.
+template <class V>
+struct ShortKeplerStep {
+  V r0;
+  V eta;
+  V mu;
+  V t;
+  V inverse_r0;
+  V beta;
+  V zeta;
+
+  V s;
+  V g1;
+  V g2;
+  V g3;
+  V r;
+  V correction;  // the last one, relative to s
+
+  ShortKeplerStep(V r0_, V eta_, V square_of_v, V mu_, V t_) : r0(r0_), eta(eta_), mu(mu_), t(t_) {
+    inverse_r0 = 1 / r0;
+    beta = 2 * mu * inverse_r0 - square_of_v;
+    zeta = mu - beta * r0;
+    // The first terms of s as a series in t.
+    const V sigma = t * inverse_r0;
+    const V u = eta * inverse_r0 * sigma;
+    const V w = zeta * inverse_r0 * sigma * sigma;
+    s = sigma * (1 - u * 0.5 + (u * u * 0.5 - w * (1. / 6)) + u * (w * (5. / 12) - u * u * 0.625));
+  }
+
+  /// A step of Newton's method with the second and third derivative, then the functions at the new s by their Taylor
+  /// series. Both errors are (correction of s)^4.   [Danby1988, ch. 6]
+  void correct() {
+    const V square = s * s;
+    const V x = beta * square;
+    g2 = square * sum_of_eight(c2_series, x);
+    g3 = s * square * sum_of_eight(c3_series, x);
+    g1 = s - beta * g3;
+    const V g0 = 1 - beta * g2;
+    r = r0 + (eta * g1 + zeta * g2);
+    const V slope = eta * g0 + zeta * g1;
+    const V curvature = zeta * g0 - beta * (eta * g1);
+    const V inverse_r = 1 / r;
+    const V newton = -((r0 * s - t) + (eta * g2 + zeta * g3)) * inverse_r;
+    const V h = slope * inverse_r * 0.5;
+    const V step = newton * (1 - newton * (h - newton * (2 * h * h - curvature * inverse_r * (1. / 6))));
+    const V half = step * 0.5;
+    const V third = step * (1. / 3);
+    r += step * (slope + half * (curvature - third * beta * slope));
+    g3 += step * (g2 + half * (g1 + third * g0));
+    g2 += step * (g1 + half * (g0 - third * beta * g1));
+    g1 += step * (g0 - half * beta * (g1 + third * g0));
+    s += step;
+    correction = step / s;
+  }
+};
+
+/// False where the step is not short, and for numbers that are none.
+template <std::size_t N>
+bool short_drift(const Vector<double, N>& r, const Vector<double, N>& v, double mu, double t,
+                 KeplerIncrements<double, N>& out) {
+  const double square_of_v = inner_product(v, v);
+  ShortKeplerStep<double> step(sqrt(inner_product(r, r)), inner_product(r, v), square_of_v, mu, t);
+  const double square = step.s * step.s;
+  const double limit_of_distance = short_step * step.r0;
+  if (!(0 < mu && mu * square < limit_of_distance && abs(step.eta * step.s) < limit_of_distance &&
+        abs(step.beta * square) < short_step && mu * mu * square < limit_of_distance * step.r0 * square_of_v)) {
+    return false;
+  }
+  const auto has_converged = [&] {  // the fourth power is below a rounding
+    step.correct();
+    return abs(step.correction) < 1e-4;
+  };
+  if (!has_converged() && !has_converged()) return false;
+  const double by_mass = mu * step.g2;
+  const double inverse_r = 1 / step.r;
+  const double f_less_1 = -by_mass * step.inverse_r0;
+  const double g = t - mu * step.g3;
+  const double f_rate = -mu * step.g1 * step.inverse_r0 * inverse_r;
+  const double g_rate_less_1 = -by_mass * inverse_r;
+  for (std::size_t i = 0; i < N; ++i) {
+    out.position[i] = f_less_1 * r[i] + g * v[i];
+    out.velocity[i] = f_rate * r[i] + g_rate_less_1 * v[i];
+    out.position_rest[i] = 0;
+    out.velocity_rest[i] = 0;
+  }
+  return true;
+}
+
+}  // namespace detail
+
+/// Advances r and v by `t`, of either sign, under the attraction mu = G m >= 0: writes what is to be added to them.
+/// Double: right to 4 units in the last place of the largest component of position and of velocity, or to what one unit
+/// of the inputs changes where the motion magnifies that. Types with more digits: likewise, 64 units.
+/// @returns not_converged where there is no such state: at a collision, or for inputs that are not finite or overflow
+template <class R, std::size_t N>
+Outcome kepler_drift(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu, const R& t,
+                     KeplerIncrements<R, N>& out) {
+  using Careful = typename CarefulNumber<R>::type;
+  if constexpr (std::is_same_v<R, double>) {
+    if (detail::short_drift(r, v, mu, t, out)) return Outcome::done;
+  }
+  KeplerIncrements<Careful, N> found{};
+  if (!detail::careful_drift(cast<Careful>(r), cast<Careful>(v), Careful(mu), Careful(t), found)) {
+    return Outcome::not_converged;
+  }
+  for (std::size_t i = 0; i < N; ++i) {
+    out.position[i] = R(found.position[i]);
+    out.velocity[i] = R(found.velocity[i]);
+    out.position_rest[i] = R(found.position[i] - Careful(out.position[i]));
+    out.velocity_rest[i] = R(found.velocity[i] - Careful(out.velocity[i]));
+    const R size = abs(out.position[i]) + abs(out.velocity[i]);
+    if (!(size <= std::numeric_limits<R>::max())) return Outcome::not_converged;
+  }
+  return Outcome::done;
+}
+
+/// Moves r and v. They are left as they were where the outcome is not `done`.
+template <class R, std::size_t N>
+Outcome advance_on_conic(Vector<R, N>& r, Vector<R, N>& v, const R& mu, const R& t) {
+  KeplerIncrements<R, N> add;
+  const Outcome outcome = kepler_drift(r, v, mu, t, add);
+  if (outcome != Outcome::done) return outcome;
+  for (std::size_t i = 0; i < N; ++i) {
+    r[i] = (r[i] + add.position[i]) + add.position_rest[i];
+    v[i] = (v[i] + add.velocity[i]) + add.velocity_rest[i];
+  }
+  return outcome;
+}
+
+}  // namespace hamflow
