@@ -19,7 +19,7 @@ class WayOut {
   WayOut& operator=(const WayOut&) = delete;
   /// Leaves the step if somebody wants to stop. Where no way is open in this thread, nothing happens.
   static void ask() {
-    if (is_open() && StopQuestion::answered()) throw Taken{};
+    if (is_open() && StopQuestion::stop_requested()) throw Taken{};
   }
 
  private:

@@ -66,7 +66,7 @@ class OutsideSimulation final : public Simulation {
     const bool by_number =
         outcome == Outcome::non_finite || outcome == Outcome::not_converged || outcome == Outcome::lattice_overflow;
     if (!particle || !by_number) return outcome;
-    why = "particle " + std::to_string(*particle + 1) + " stood on the soft wall or beyond it";
+    why = "particle " + std::to_string(*particle + 1) + " was on or beyond the soft wall";
     return Outcome::outside;
   }
 

@@ -16,7 +16,7 @@ struct Frames {
 /// Calls the observers that are due at the simulation's step, in their order.
 Outcome wake(const Simulation& simulation, std::span<Observer* const> observers, Frames& frames) {
   // A partial step that was given up would count as one that failed.
-  const StopQuestion::Silence silence;
+  const StopQuestion::Suspended suspended;
   const std::int64_t now = simulation.step();
   bool looked = false;
   Outcome outcome = Outcome::done;

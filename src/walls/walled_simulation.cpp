@@ -452,7 +452,7 @@ class WalledSimulation : public Simulation {
     outside_.reset();
     (void)inner_->clone()->advance(1);
     if (!outside_) return outcome;
-    why_ = walls_->names.at(*outside_) + " stood on a soft wall or beyond it";
+    why_ = walls_->names.at(*outside_) + " was on or beyond a soft wall";
     return Outcome::outside;
   }
 

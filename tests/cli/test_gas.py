@@ -350,7 +350,7 @@ class Gas(GasCase):
             s = self.gas("container = { radius = 1.45 }", "--set", "run.dt=0.1", "--set", "run.steps=50", "--set",
                          f"run.arithmetic={arithmetic}", status=1)
             self.assertEqual((s["status"], s["error"]["kind"]), ("failed", "outside"), arithmetic)
-            self.assertRegex(s["error"]["message"], r"step \d+, from t = \S+: particle \d+ stood on the soft wall")
+            self.assertRegex(s["error"]["message"], r"step \d+, from t = \S+: particle \d+ was on or beyond the soft wall")
             self.assertIn("exponent", s["error"]["hint"])
             self.assertIn("dt", s["error"]["hint"])
         for method in ("rk4", "gauss(2)", "cg(2,4)"):
@@ -377,7 +377,7 @@ class Gas(GasCase):
         in_double = self.summary(*case, status=1)["error"]
         error = self.summary(*case, *lattice, status=1)["error"]
         self.assertEqual((error["kind"], error["step"]), ("outside", 22))
-        self.assertIn("particle 109 stood on the soft wall or beyond it", error["message"])
+        self.assertIn("particle 109 was on or beyond the soft wall", error["message"])
         self.assertIn("larger exponent", error["hint"])
         self.assertEqual(error, in_double)
         listing = self.summary(*case, *lattice, "--set", "problem.scale='listing'", status=1)["error"]

@@ -147,7 +147,7 @@ steps = 10
 
     def test_a_comparison_says_which_wall(self):
         for rule, dt, words, hint in (
-                ('wall_rule = "soft"\nstrength = 1e-9\nexponent = 2', "0.7", "x stood on a soft wall or beyond it",
+                ('wall_rule = "soft"\nstrength = 1e-9\nexponent = 2', "0.7", "x was on or beyond a soft wall",
                  "a larger exponent"),
                 ('wall_rule = "mirror"', "1300", "more than 1000 bounces in one step, the last off the wall of x",
                  "pressed onto a wall")):

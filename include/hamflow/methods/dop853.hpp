@@ -124,7 +124,7 @@ class DormandPrince853 {
       derivative(problem, s.q0, s.p0, s.dq[0], s.dp[0]);
       double part = 0;
       for (bool repeated = false;; repeated = true) {
-        if (StopQuestion::answered()) {
+        if (StopQuestion::stop_requested()) {
           z = start;
           return Outcome::stopped;
         }

@@ -95,7 +95,7 @@ class TaylorMethod {
   Outcome advance(const P& problem, const Base& h, PhasePoint<A, n>& z, std::string* why) {
     if (options_.fixed) {
       expand(problem, h, z);
-      if (StopQuestion::answered()) return Outcome::stopped;
+      if (StopQuestion::stop_requested()) return Outcome::stopped;
       add(Base(1), z);
       return Outcome::done;
     }
@@ -110,7 +110,7 @@ class TaylorMethod {
         if (allowed == allowed || unit < Substeps::shortest) break;
         unit /= 1024;
       }
-      if (StopQuestion::answered()) {
+      if (StopQuestion::stop_requested()) {
         z = start;
         return Outcome::stopped;
       }
