@@ -502,10 +502,10 @@ std::string gas_that_accepts(const MethodSpec& method, const std::map<std::strin
   const std::string no_container = std::string("with container = { kind = \"") + ContainerNames::none +
                                    "\" } (found kind = \"" + found + "\"" +
                                    (found == ContainerNames::circle ? ", the default)" : ")");
-  const std::string no_cutoff = "without cutoff, beyond which phi ends";
-  if (accepts(open, method)) return "one only " + no_container;
-  if (accepts(whole, method)) return "one only " + no_cutoff;
-  return accepts(both, method) ? "one only " + no_container + " and " + no_cutoff : "";
+  const std::string no_cutoff = "without cutoff, at which phi ends";
+  if (accepts(open, method)) return "only " + no_container;
+  if (accepts(whole, method)) return "only " + no_cutoff;
+  return accepts(both, method) ? "only " + no_container + " and " + no_cutoff : "";
 }
 
 const std::vector<ProblemInfo>& pair_laws() {

@@ -159,11 +159,11 @@ steps = 100
         near = 'coordinates = "cartesian"\ninitial = { q = [0.6, "-0.8 + 5e-14"], p = [0.8, 0.6] }'
         self.assertEqual(self.summary(self.pendulum(near))["status"], "done")
         self.assertIn("rattle needs constraints g(q) = 0", self.refused(self.pendulum(ANGLE)))
-        self.assertIn("verlet knows no constraints", self.refused(self.pendulum(method="verlet")))
+        self.assertIn("verlet does not support constraints", self.refused(self.pendulum(method="verlet")))
         self.assertIn("rattle, rattle4", self.refused(self.pendulum(method="cg")))
         form = PLANE + '\nconstraint_form = "multiplier"'
         for method in ("cg", "verlet", "rattle", "euler"):
-            self.assertIn("needs the gradient of an H, and the field with multipliers is none",
+            self.assertIn("needs the gradient of an H, which the field with multipliers is not",
                           self.refused(self.pendulum(form, method)))
         for key, value in (("dimension", "3"), ("constraint_form", '"manifold"')):
             text = self.refused(self.pendulum(ANGLE + f"\n{key} = {value}", "verlet"))
