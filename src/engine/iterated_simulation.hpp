@@ -74,7 +74,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   const IterationFrame& frame() const override { return frame_; }
   NewtonOptions newton() const override { return method_.setup().newton(); }
   bool automatic() const override { return method_.setup().automatic(); }
-  int points() const override { return method_.setup().mark(); }
+  int points() const override { return method_.setup().current_rule(); }
   bool can_be_recorded() const override { return static_cast<bool>(*recorder_); }
   std::optional<RecordedIteration> recorded_iteration() const override {
     std::vector<double> values(frame_.size());

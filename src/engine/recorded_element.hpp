@@ -150,9 +150,9 @@ class RecordedElement : public SegmentEquations<P, double> {
   }
   Real norm(const Few& x, const Point& at) const {
     put(x, at, frame_.x());
-    const double flight = at.frame[frame_.number()];
+    const double free_displacement = at.frame[frame_.number()];
     run(setup_.programs().norm, at);
-    return std::exchange(at.frame[frame_.number()], flight);
+    return std::exchange(at.frame[frame_.number()], free_displacement);
   }
   bool too_coarse(const Few&, const Increment<Real, n>& u) const {
     const Work work = finer_work(u);

@@ -33,8 +33,8 @@ struct SegmentFrame {
   std::size_t residual() const { return correction() + m; }
   std::size_t lost() const { return residual() + m; }  // what rounding has taken from the residual; or all without it
   std::size_t tangent() const { return lost() + m; }   // row after row
-  std::size_t flight() const { return tangent() + m * m; }
-  std::size_t sum() const { return flight() + 1; }
+  std::size_t free_displacement() const { return tangent() + m * m; }
+  std::size_t sum() const { return free_displacement() + 1; }
   std::size_t target() const { return sum() + m; }
   std::size_t noise() const { return target() + m; }      // of a general element
   std::size_t stiffness() const { return target() + m; }  // of a natural one
@@ -141,16 +141,16 @@ class SegmentLoop {
   }
   Correction<double> measure(std::span<const double> numbers, const Few& x, const Few& correction) const {
     if (frame_.is_natural()) {
-      return NaturalElement<P, double>::measured(numbers[frame_.flight()], read(numbers, frame_.target()), x,
+      return NaturalElement<P, double>::measured(numbers[frame_.free_displacement()], read(numbers, frame_.target()), x,
                                                  correction);
     }
     return GeneralElement<P, double>::measured(read(numbers, frame_.noise()), x, correction);
   }
   bool is_hidden(std::span<const double> numbers, const Few& x, const Few& correction) const {
     const Few target = read(numbers, frame_.target());
-    const double terms = frame_.is_natural()
-                             ? NaturalElement<P, double>::doubted(numbers[frame_.flight()], target, x, correction)
-                             : GeneralElement<P, double>::doubted(target, x, correction);
+    const double terms = frame_.is_natural() ? NaturalElement<P, double>::doubted(numbers[frame_.free_displacement()],
+                                                                                  target, x, correction)
+                                             : GeneralElement<P, double>::doubted(target, x, correction);
     return terms > 0;
   }
   Few read(std::span<const double> numbers, std::size_t from) const {
@@ -224,7 +224,7 @@ class SegmentRecorder {
     f.put(at.residual, frame_.residual());
     f.put(e.lost(x, at), frame_.lost());
     put(e.tangent(at), f, frame_.tangent());
-    f.numbers[frame_.flight()] = e.flight();
+    f.numbers[frame_.free_displacement()] = e.free_displacement();
     f.put(at.sum, frame_.sum());
     f.put(at.target, frame_.target());
     if constexpr (natural) {

@@ -198,8 +198,8 @@ steps = 10
                             '["sqrt(x^2 + y^2)/3 - 1/3", "x^2 + y^2 - 1"]', '["x - 1", "(x - 1)*(y + 1)", "x^2 - 1"]'):
             for form in ("", 'constraint_form = "multiplier"'):
                 text = self.refused(self.constrained(constraints, form, "rk4" if form else "rattle"))
-                self.assertIn("problem.constraints: found constraints whose gradients depend on each other at the start; "
-                              "allowed independent ones, fewer than coordinates", text)
+                self.assertIn("problem.constraints: found constraints whose gradients are linearly dependent at the start; "
+                              "allowed independent constraints, fewer than coordinates", text)
         text = self.refused(self.constrained('["(x - 1)^2"]'))
         self.assertIn("found a constraint whose gradient vanishes at the start", text)
 

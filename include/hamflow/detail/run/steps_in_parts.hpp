@@ -41,12 +41,12 @@ class StepsInParts {
   virtual void show_at(const R& time, Frame& frame) const = 0;
 
   /// Keeps everything as it is now, in one of two places.
-  enum class Place { step, flight };
-  virtual void mark(Place /*place*/) { refuse(); }
+  enum class Place { step, path };
+  virtual void remember_state(Place /*place*/) { refuse(); }
   /// To what was kept, which stays kept.
-  virtual void back(Place /*place*/) { refuse(); }
+  virtual void restore_state(Place /*place*/) { refuse(); }
   /// The same, but the method goes on counting its work. @return false where it cannot: then nothing was done
-  virtual bool back_counting(Place /*place*/) { return false; }
+  virtual bool restore_state_keeping_effort(Place /*place*/) { return false; }
   /// z <- Psi_h(z), with no kick, force or guess remembered. Clock and probe stay.
   virtual Outcome take_part(const R& /*h*/) { refuse(); }
   /// Where Psi_h leads from the mark of the flight: q, then dH/dp, for as long as nothing else is asked. Nobody moves.

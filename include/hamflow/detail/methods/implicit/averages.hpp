@@ -78,7 +78,7 @@ class AverageSetup {
     return "the force varies so much along the step, or the step is so stiff, that " + detail() +
            " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
   }
-  int mark() const { return table().points; }
+  int current_rule() const { return table().points; }
   void return_to(int points) {
     if (points != table().points) use(points);
   }

@@ -176,7 +176,7 @@ class ImplicitMethod {
     if (solve(problem, h, q0, p0, z, unknowns, log)) return Outcome::done;
     if (!options_.halve || depth == deepest_halving) return Outcome::not_converged;
     const PhasePoint<A, n> start = z;
-    const auto points = mark();
+    const auto points = current_rule();
     invalidate();
     for (int half = 0; half < 2; ++half) {
       const Outcome outcome = attempt(problem, h / 2, z, depth + 1, unknowns, log);
@@ -193,9 +193,9 @@ class ImplicitMethod {
   }
 
   /// The points of "auto" that whole steps take: half steps find their own.
-  auto mark() const {
-    if constexpr (requires { setup_.mark(); }) {
-      return setup_.mark();
+  auto current_rule() const {
+    if constexpr (requires { setup_.current_rule(); }) {
+      return setup_.current_rule();
     } else {
       return nullptr;
     }
@@ -322,7 +322,7 @@ class ImplicitMethod {
   [[gnu::noinline]] std::optional<Solution> refined(const P& problem, const Real& h, const Vector<Real, n> q0,
                                                     const Vector<Real, n> p0, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
-    const auto before = setup_.mark();
+    const auto before = setup_.current_rule();
     for (;;) {
       const E step(setup_, problem, h, q0, p0, effort_);
       const bool coarse = step.too_coarse(found.x, found.taken);

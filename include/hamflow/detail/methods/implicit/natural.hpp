@@ -50,7 +50,7 @@ class NaturalElement : public SegmentEquations<P, R> {
         q0_(q0),
         p0_(p0),
         effort_(effort),
-        flight_(max_norm(terms_of_flight())) {}
+        flight_(max_norm(displacement_terms())) {}
 
   V last_state() const { return zeros_like(q0_); }
   V predicted() const {
@@ -104,11 +104,11 @@ class NaturalElement : public SegmentEquations<P, R> {
     return measured(flight_, at.target, d, correction);
   }
   template <class X>
-  [[gnu::always_inline]] static Correction<Real> measured(const Real& flight, const X& target, const X& d,
+  [[gnu::always_inline]] static Correction<Real> measured(const Real& free_displacement, const X& target, const X& d,
                                                           const X& correction) {
     X next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
-    return {max_norm(correction), epsilon * (larger(flight, max_norm(target)) + max_norm(next))};
+    return {max_norm(correction), epsilon * (larger(free_displacement, max_norm(target)) + max_norm(next))};
   }
   /// The size of the target where its rounding hides the step, else 0: at a guess so far off that forces round by more
   /// than the whole step, any correction looks small.
@@ -116,11 +116,12 @@ class NaturalElement : public SegmentEquations<P, R> {
     return doubted(flight_, at.target, d, correction);
   }
   template <class X>
-  [[gnu::always_inline]] static Real doubted(const Real& flight, const X& target, const X& d, const X& correction) {
+  [[gnu::always_inline]] static Real doubted(const Real& free_displacement, const X& target, const X& d,
+                                             const X& correction) {
     X next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
     const Real size = max_norm(target);
-    return hidden_by_rounding(Real(epsilon * size), larger(flight, max_norm(next))) ? size : Real(0);
+    return hidden_by_rounding(Real(epsilon * size), larger(free_displacement, max_norm(next))) ? size : Real(0);
   }
 
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at) const {
@@ -192,12 +193,12 @@ class NaturalElement : public SegmentEquations<P, R> {
     force_and_hessian(problem_, middle, f, second);
     ++effort_.force;
     ++effort_.hessian;
-    const V flight = terms_of_flight();  // d itself rounds by these
+    const V free_displacement = displacement_terms();  // d itself rounds by these
     Real rounding(0);
     for (std::size_t i = 0; i < d.size(); ++i) {
       Real units = terms * abs(f[i]);
       for (std::size_t j = 0; j < d.size(); ++j) {
-        units += abs(second[i][j]) * (3 * abs(middle[j]) + terms * abs(d[j]) + 4 * flight[j]);
+        units += abs(second[i][j]) * (3 * abs(middle[j]) + terms * abs(d[j]) + 4 * free_displacement[j]);
       }
       rounding += epsilon * abs(d[i]) * units;
     }
@@ -266,7 +267,7 @@ class NaturalElement : public SegmentEquations<P, R> {
   static constexpr auto epsilon = Epsilon<Real>{};
 
   /// |h| |M^-1| |p0|, coordinate by coordinate.
-  V terms_of_flight() const {
+  V displacement_terms() const {
     V sizes = zeros_like(p0_);
     for (std::size_t i = 0; i < p0_.size(); ++i) {
       for (std::size_t j = 0; j < p0_.size(); ++j) sizes[i] += setup_.inverse_mass_sizes[i][j] * abs(p0_[j]);

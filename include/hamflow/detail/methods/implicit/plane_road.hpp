@@ -74,11 +74,11 @@ struct PlaneEnd {
   Two impulse{};
 };
 
-/// @param guess the impulse that is extrapolated   @param flight the largest |h| |M^-1| |p0|
+/// @param guess the impulse that is extrapolated   @param free_displacement the largest |h| |M^-1| |p0|
 template <class P>
 [[gnu::always_inline]] inline PlaneEnd plane_road(const P& problem, const GaussRule<double>& rule, double h,
                                                   const Vector<double, 2>& q0, const Vector<double, 2>& p0,
-                                                  const Vector<double, 2>& guess, double flight, int most) {
+                                                  const Vector<double, 2>& guess, double free_displacement, int most) {
   using V = Vector<double, 2>;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const auto velocity_of = [&](double x, double y) __attribute__((always_inline)) {
@@ -105,14 +105,15 @@ template <class P>
     const double ex = (rx * yy - ry * xy) * inverse_determinant, ey = (ry * xx - rx * yx) * inverse_determinant;
 
     const double size = std::max(std::abs(ex), std::abs(ey));
-    const double noise = epsilon * (std::max(flight, std::max(std::abs(target_x), std::abs(target_y))) +
+    const double noise = epsilon * (std::max(free_displacement, std::max(std::abs(target_x), std::abs(target_y))) +
                                     std::max(std::abs(dx + ex), std::abs(dy + ey)));
     const NewtonDecision decision = progress.judge(size, size + std::abs(ex) + std::abs(ey), noise);
     if (decision == NewtonDecision::not_finite) return {};
     if (decision == NewtonDecision::settled) {
       if (progress.began_far_away(noise)) return {};
       const double terms = std::max(std::abs(target_x), std::abs(target_y));
-      if (hidden_by_rounding(epsilon * terms, std::max(flight, std::max(std::abs(dx + ex), std::abs(dy + ey))))) {
+      if (hidden_by_rounding(epsilon * terms,
+                             std::max(free_displacement, std::max(std::abs(dx + ex), std::abs(dy + ey))))) {
         return {};
       }
       const double low_x = product_error(unit, sums.fx, half_x), low_y = product_error(unit, sums.fy, half_y);

@@ -88,7 +88,7 @@ class SegmentSetup {
     return "the force varies so much along the step, or the step is so stiff, that " + detail() +
            " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
   }
-  const GaussRule<Real>* mark() const { return rule_; }
+  const GaussRule<Real>* current_rule() const { return rule_; }
   void return_to(const GaussRule<Real>* rule) { rule_ = rule; }
   template <class Archive>
   void archive(Archive& ar) {
