@@ -140,7 +140,7 @@ steps = 10
         s = self.summary(file, *jumps)
         self.assertEqual(s["events"]["user:event1"], 0)
         bounces = s["events"]["wall:x:min"] + s["events"]["wall:x:max"]
-        sentence = f"event1: {bounces} changes of sign were no zeros: the expression jumps there, or has a pole"
+        sentence = f"event1: {bounces} changes of sign were not zeros: the expression jumps or has a pole there"
         self.assertEqual(s["event_notes"], [sentence])
         self.assertIn(sentence, self.hamflow("run", file, *jumps, "--out", "none").stdout)
         self.assertNotIn("event_notes", self.summary(file, "--set", "run.events=[{expression='x-0.5',direction=0}]"))
