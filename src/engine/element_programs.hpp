@@ -139,7 +139,7 @@ class ElementOnFrame {
         return this->lost_in_residual(at, this->half_impulse(at));
       } else {
         Point sharp = at;
-        this->sharpen(x, sharp);
+        this->remove_residual_rounding(x, sharp);
         return sharp.residual;
       }
     }

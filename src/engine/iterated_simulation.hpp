@@ -14,7 +14,8 @@
 namespace hamflow {
 
 namespace detail {
-/// Finds among what an implicit method archives how much Newton doubts its guesses: the count behind what it remembers.
+/// Finds among what an implicit method archives how much Newton hidden_terms its guesses: the count behind what it
+/// remembers.
 struct DoubtFinder {
   static constexpr bool reading = false;
   int* found = nullptr;
@@ -82,7 +83,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
     return (*recorder_)(frame_, values, points(), time_of_clock(), IterationParts::all);
   }
 
-  bool read(std::span<double> values) const override { return fill(values) && method_.newton().trusts_memory(); }
+  bool read(std::span<double> values) const override { return fill(values) && method_.newton().uses_memory(); }
   void take(std::span<const double> values, std::int64_t steps, const Effort& effort) override {
     std::size_t k = IterationFrame::carried;
     for_each_carried([&](double& x) { x = values[k++]; }, z_, probe_);

@@ -67,10 +67,10 @@ int IterationRunner::solved(std::span<double> frame, int& doubt) {
     const bool missed = doubt == 0 && progress.began_far_away(1.0);
     if ((missed && !stages_) || !end(frame)) return 0;
     if (missed) {
-      doubt = good_guesses_wanted;
+      doubt = good_guesses_needed;
     } else if (doubt > 0) {  // whether the guess would have been better
       const double distance = stages_->distance_of(frame.subspan(at.x(), at.m));
-      doubt = good_guesses_wanted_after(doubt, std::numeric_limits<double>::epsilon() * distance <= 1);
+      doubt = good_guesses_needed_after(doubt, std::numeric_limits<double>::epsilon() * distance <= 1);
     }
     return k + 1;
   }

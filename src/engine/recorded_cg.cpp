@@ -106,7 +106,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   }
   /// The numbers of the next step, without its first guess. @return whether that comes from the last three
   bool fill() {
-    if (!method_.newton().trusts_memory() || !method_.newton().memory().is_full()) return false;
+    if (!method_.newton().uses_memory() || !method_.newton().memory().is_full()) return false;
     numbers_.assign(frame_.size(), 0.0);
     numbers_[IterationFrame::h] = clock_.step_length();
     numbers_[IterationFrame::position] = static_cast<double>(clock_.position());

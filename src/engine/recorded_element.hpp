@@ -98,7 +98,7 @@ class RecordedElement : public SegmentEquations<P, double> {
     run(setup_.programs().evaluated, at);
     at.residual = read(at, frame_.residual());
   }
-  void sharpen(const Few&, Point& at) const {
+  void remove_residual_rounding(const Few&, Point& at) const {
     if (is_natural() && frame_.n <= 2) return;  // taken() makes up for it, as natural.hpp does
     const Few lost = read(at, frame_.lost());
     for (std::size_t i = 0; i < frame_.m; ++i) at.residual[i] = is_natural() ? at.residual[i] + lost[i] : lost[i];
@@ -119,10 +119,10 @@ class RecordedElement : public SegmentEquations<P, double> {
     }
     return GeneralElement<P, Real>::measured(read(at, frame_.point() + 2 * frame_.m), x, correction);
   }
-  Real doubts(const Few& x, const Point& at, const Few& correction) const {
+  Real hidden_terms(const Few& x, const Point& at, const Few& correction) const {
     const Few target = read(at, frame_.point() + frame_.m);
-    return is_natural() ? NaturalElement<P, Real>::doubted(at.frame[frame_.number()], target, x, correction)
-                        : GeneralElement<P, Real>::doubted(target, x, correction);
+    return is_natural() ? NaturalElement<P, Real>::hidden_terms_of(at.frame[frame_.number()], target, x, correction)
+                        : GeneralElement<P, Real>::hidden_terms_of(target, x, correction);
   }
   Increment<Real, n> taken(Few& x, const Point& at) const {
     put(x, at, frame_.x());
@@ -158,7 +158,7 @@ class RecordedElement : public SegmentEquations<P, double> {
     const Work work = finer_work(u);
     return abs(work.gain) > work.rounding;
   }
-  bool believable(const Few&, const Increment<Real, n>& u) const {
+  bool energy_error_acceptable(const Few&, const Increment<Real, n>& u) const {
     if (setup_.rule().points == 1) return true;
     const Work work = finer_work(u);
     return 100 * abs(work.gain) <= work.size;

@@ -148,9 +148,9 @@ class SegmentLoop {
   }
   bool is_hidden(std::span<const double> numbers, const Few& x, const Few& correction) const {
     const Few target = read(numbers, frame_.target());
-    const double terms = frame_.is_natural() ? NaturalElement<P, double>::doubted(numbers[frame_.free_displacement()],
-                                                                                  target, x, correction)
-                                             : GeneralElement<P, double>::doubted(target, x, correction);
+    const double terms = frame_.is_natural() ? NaturalElement<P, double>::hidden_terms_of(
+                                                   numbers[frame_.free_displacement()], target, x, correction)
+                                             : GeneralElement<P, double>::hidden_terms_of(target, x, correction);
     return terms > 0;
   }
   Few read(std::span<const double> numbers, std::size_t from) const {

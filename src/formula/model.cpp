@@ -333,7 +333,7 @@ void Model::derive_constraints(const std::vector<int>& values) {
                        "an H, or none");
   }
   std::vector<Derivation::Output> of_gradients;
-  std::vector<Derivation::Output> of_bends;
+  std::vector<Derivation::Output> curvatures;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
@@ -342,7 +342,7 @@ void Model::derive_constraints(const std::vector<int>& values) {
         if (!d.forms.depends(g, static_cast<int>(i))) continue;
         throw FormulaError(key, "found " + symbols_.names[i] + " in it; allowed coordinates and parameters");
       }
-      std::vector<int> bend;
+      std::vector<int> curvature;
       bool any = false;
       for (std::size_t i = 0; i < n; ++i) {
         const int by = d.derivative(g, position_symbol(i));
@@ -351,12 +351,12 @@ void Model::derive_constraints(const std::vector<int>& values) {
         for (std::size_t j = 0; j < n; ++j) {
           const int second = d.derivative(by, position_symbol(j));
           if (d.forms.is_zero(second)) continue;
-          bend.push_back(d.forms.product(second, d.forms.product(d.symbol(n + i), d.symbol(n + j))));
+          curvature.push_back(d.forms.product(second, d.forms.product(d.symbol(n + i), d.symbol(n + j))));
         }
       }
       for (std::size_t i = n; i < degrees(); ++i) of_gradients.push_back({d.forms.sum({})});
       if (!any) throw FormulaError(key, "found no coordinate in it; allowed a function of coordinates that is to be 0");
-      of_bends.push_back({d.forms.sum(bend)});
+      curvatures.push_back({d.forms.sum(curvature)});
     } catch (const FormulaError&) {
       throw;
     } catch (const Error& error) {
@@ -365,7 +365,7 @@ void Model::derive_constraints(const std::vector<int>& values) {
   }
   constraints = std::make_shared<const Code>(code_of(d.graph, values, d.fixed));
   constraint_gradients = d.code(of_gradients);
-  constraint_bends = d.code(of_bends);
+  constraint_curvatures = d.code(curvatures);
 }
 
 const HessianCode& Model::hessian() const {

@@ -63,7 +63,7 @@ class SoftWall {
   }
   /// V_qq = first I + second q q^T.
   template <class S>
-  std::array<S, 2> bend(const S* q, std::size_t space, std::size_t particle) const {
+  std::array<S, 2> hessian_factors(const S* q, std::size_t space, std::size_t particle) const {
     const S g = room(q, space, particle);
     const S first = R(2) * strength_ * exponent_ * (power(g) / g);
     return {first, R(2) * (exponent_ + R(1)) * (first / g)};

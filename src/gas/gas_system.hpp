@@ -62,9 +62,9 @@ struct GasModel : Particles<R> {
   }
   /// 2 phi' I + 4 phi'' d d^T.
   template <class S>
-  auto bend(const S& u, std::size_t /*i*/, std::size_t /*j*/) const {
-    return [slope = S(R(2) * first(u)), bend = S(R(4) * second(u))](const S* d, std::size_t k, std::size_t l) {
-      return S((k == l ? slope : S(R(0))) + bend * d[k] * d[l]);
+  auto pair_hessian(const S& u, std::size_t /*i*/, std::size_t /*j*/) const {
+    return [slope = S(R(2) * first(u)), outer = S(R(4) * second(u))](const S* d, std::size_t k, std::size_t l) {
+      return S((k == l ? slope : S(R(0))) + outer * d[k] * d[l]);
     };
   }
   static R strength(std::size_t /*i*/, std::size_t /*j*/) { return R(1); }
@@ -173,7 +173,7 @@ class GasSystem : public PairSystem<R, GasModel<R, Laws>> {
     if (!has_wall()) return;
     for (std::size_t i = 0; i < particles(); ++i) {
       const std::size_t at = i * space();
-      const auto [first, second] = model().wall.bend(q.begin() + at, space(), i);
+      const auto [first, second] = model().wall.hessian_factors(q.begin() + at, space(), i);
       for (std::size_t k = 0; k < space(); ++k) {
         h[at + k][at + k] += first;
         for (std::size_t l = 0; l < space(); ++l) h[at + k][at + l] += second * q[at + k] * q[at + l];

@@ -46,7 +46,7 @@ struct GravityModel : Particles<R> {
   /// The pair i, j adds c (I - 3 d d^T/u), c = G m_i m_j u^(-3/2), to the blocks ii and jj and subtracts it from ij and
   /// ji.
   template <class S>
-  auto bend(const S& u, std::size_t i, std::size_t j) const {
+  auto pair_hessian(const S& u, std::size_t i, std::size_t j) const {
     return [u, c = pull(u, i, j)](const S* d, std::size_t k, std::size_t l) {
       return S((k == l ? c : S(0)) - R(3) * c * d[k] * d[l] / u);
     };

@@ -41,12 +41,12 @@ struct Particles {
 ///   energy(u, i, j)     V_ij
 ///   pull(u, i, j)       c of the force -c d on i, c d on j
 ///   pull_times(factor)  a function of (u, i, j): factor times c, for kicks of the lattice
-///   bend(u, i, j)       a function of (d, k, l): the entry k, l of d^2 V_ij/dq_i^2
+///   pair_hessian(u, i, j)       a function of (d, k, l): the entry k, l of d^2 V_ij/dq_i^2
 ///   strength(i, j), radial_law(u)   as RadialForces has them, u = r^2
 ///   turns_freely(), moves_freely()  whether angular, and linear, momentum is conserved
 ///   sums_by_rows        whether V is the sum of the sums over j, or one sum
-/// and, where it can, bend_times(factor, u, i, j): the same as `bend`, for kicks of the lattice; and near, a shared
-/// NearPairs or null: pairs that it leaves out have energy, pull and kick 0.
+/// and, where it can, pair_hessian_times(factor, u, i, j): the same as `pair_hessian`, for kicks of the lattice; and
+/// near, a shared NearPairs or null: pairs that it leaves out have energy, pull and kick 0.
 template <class R, class M>
 class PairSystem {
  public:
@@ -301,10 +301,10 @@ class PairSystem {
     const std::size_t n = space();
     S d[3]{};
     const S u = square_of(q, i, j, d);
-    const auto bend = model_->bend(u, i, j);
+    const auto pair_hessian = model_->pair_hessian(u, i, j);
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t l = 0; l < n; ++l) {
-        const S entry = bend(d, k, l);
+        const S entry = pair_hessian(d, k, l);
         h[i * n + k][i * n + l] += entry;
         h[j * n + k][j * n + l] += entry;
         h[i * n + k][j * n + l] -= entry;

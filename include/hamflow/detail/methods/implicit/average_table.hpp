@@ -33,7 +33,7 @@ struct AverageTable {
   // last bit.
   std::vector<R> inner;        // N_lj at [j s + l]
   std::vector<R> weight;       // W_il at [l k + i]
-  std::vector<R> unit_weight;  // kappa W_il, see detail::golden
+  std::vector<R> unit_weight;  // kappa W_il, see detail::golden_ratio
   bool diagonal = false;       // W is
   std::vector<R> increment;    // e_j
   std::vector<R> scale;        // beta_j
@@ -41,8 +41,8 @@ struct AverageTable {
   std::vector<R> coupling;     // A_ij at [i k + j]
   std::vector<R> next;         // from the averages of a polynomial motion to those of the step after it, at [j k + i]
   // For the tangents alone, at [l k k + i k + j]
-  std::vector<R> bend;          // W_il dy_l/du_j, dy_l/du_j = e_j/2 + N_lj
-  std::vector<R> natural_bend;  // W_il dq_l/du^p_j, without h M^-1
+  std::vector<R> tangent_weights;          // W_il dy_l/du_j, dy_l/du_j = e_j/2 + N_lj
+  std::vector<R> natural_tangent_weights;  // W_il dq_l/du^p_j, without h M^-1
 };
 
 namespace detail {
@@ -56,18 +56,18 @@ template <class R>
 void complete(AverageTable<R>& t) {
   const auto k = static_cast<std::size_t>(t.averages);
   const auto s = static_cast<std::size_t>(t.points);
-  for (const R& w : t.weight) t.unit_weight.push_back(golden<R>() * w);
+  for (const R& w : t.weight) t.unit_weight.push_back(golden_ratio<R>() * w);
   for (std::size_t l = 0; l < s; ++l) {
     for (std::size_t i = 0; i < k; ++i) {
       const R& w = t.weight[l * k + i];
       for (std::size_t j = 0; j < k; ++j) {
-        t.bend.push_back(w * (t.increment[j] / R(2) + t.inner[j * s + l]));
+        t.tangent_weights.push_back(w * (t.increment[j] / R(2) + t.inner[j * s + l]));
         R reach(0);
         for (std::size_t m = 0; m < k; ++m) {
           const R by_momenta = t.scale[m] * (t.middle[m] * t.increment[j] / R(2) + t.coupling[m * k + j]);
           reach += (t.increment[m] / R(2) + t.inner[m * s + l]) * by_momenta;
         }
-        t.natural_bend.push_back(w * reach);
+        t.natural_tangent_weights.push_back(w * reach);
       }
     }
   }
@@ -162,9 +162,19 @@ AverageTable<To> rounded(const AverageTable<From>& t) {
     for (const From& x : from) to.push_back(static_cast<To>(x));
     return to;
   };
-  return {t.points,      t.averages,         round(t.inner),       round(t.weight), round(t.unit_weight),
-          t.diagonal,    round(t.increment), round(t.scale),       round(t.middle), round(t.coupling),
-          round(t.next), round(t.bend),      round(t.natural_bend)};
+  return {t.points,
+          t.averages,
+          round(t.inner),
+          round(t.weight),
+          round(t.unit_weight),
+          t.diagonal,
+          round(t.increment),
+          round(t.scale),
+          round(t.middle),
+          round(t.coupling),
+          round(t.next),
+          round(t.tangent_weights),
+          round(t.natural_tangent_weights)};
 }
 
 /// Tables by number, made once each; their addresses stay.

@@ -74,7 +74,7 @@ class AverageSetup {
     use(table().points + 1);
     return true;
   }
-  std::string hopeless() const {
+  std::string no_finer_rule_message() const {
     return "the force varies so much along the step, or the step is so stiff, that " + detail() +
            " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
   }
@@ -196,14 +196,14 @@ class AverageEquations {
   AverageEquations(const P& problem, const Real& h, const AverageTable<Real>& table)
       : problem_(problem),
         h_(h),
-        unit_(h / detail::golden<Real>()),
+        unit_(h / detail::golden_ratio<Real>()),
         table_(table),
         s_(static_cast<std::size_t>(table.points)),
         k_(static_cast<std::size_t>(table.averages)) {}
 
   const P& problem_;
   const Real h_;
-  const Real unit_;  // h/kappa, see detail::golden
+  const Real unit_;  // h/kappa, see detail::golden_ratio
   const AverageTable<Real>& table_;
   const std::size_t s_;
   const std::size_t k_;

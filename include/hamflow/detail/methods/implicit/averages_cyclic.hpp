@@ -45,8 +45,8 @@ class CyclicAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return rest_.measure(x, at, correction);
   }
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
-    return rest_.doubts(x, at, correction);
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
+    return rest_.hidden_terms(x, at, correction);
   }
   Increment<Real, n> taken(Variables& x, const Point& at) const {
     const OfRest of_rest = rest_.taken(x, at);
@@ -73,7 +73,9 @@ class CyclicAverages : public AverageEquations<P, R> {
   detail::Gain<Real> gain_of_energy(const Variables& x) const { return rest_.gain_of_energy(x); }
   Real own_gain(const Variables& x) const { return rest_.own_gain(x); }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const { return rest_.too_coarse(x, {}); }
-  bool believable(const Variables& x, const Increment<Real, n>&) const { return rest_.believable(x, {}); }
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
+    return rest_.energy_error_acceptable(x, {});
+  }
 
  private:
   using Base::h_;

@@ -84,10 +84,10 @@ class GeneralAverages : public AverageEquations<P, R> {
             size_q[a * point_stride + l] += abs(qq[l] * q) + abs(qp[l] * p);
             size_p[a * point_stride + l] += abs(pq[l] * q) + abs(pp[l] * p);
           }
-          Real* const bends = &at.bends[3 * (a * size_ + b) * k_ * k_];
-          detail::add_bend(table_.bend, k_, first, count, qq, bends);
-          detail::add_bend(table_.bend, k_, first, count, qp, bends + k_ * k_);
-          detail::add_bend(table_.bend, k_, first, count, pp, bends + 2 * k_ * k_);
+          Real* const curvatures = &at.curvatures[3 * (a * size_ + b) * k_ * k_];
+          detail::add_curvatures(table_.tangent_weights, k_, first, count, qq, curvatures);
+          detail::add_curvatures(table_.tangent_weights, k_, first, count, qp, curvatures + k_ * k_);
+          detail::add_curvatures(table_.tangent_weights, k_, first, count, pp, curvatures + 2 * k_ * k_);
         }
       }
       detail::add_averages(table_, first, count, h_, Real(1), &block.dp[0], &size_p[0], 0, size_, at);
@@ -105,7 +105,7 @@ class GeneralAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::in_units_of_noise(x, at, correction);
   }
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::hiding_terms(x, at, correction);
   }
 
@@ -130,7 +130,7 @@ class GeneralAverages : public AverageEquations<P, R> {
         [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
   }
   /// Whether the energy is kept to a hundredth of the work done, where that is promised.
-  bool believable(const Variables& x, const Increment<Real, n>&) const {
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
     if (!setup_.conserves()) return true;
     const detail::Gain<Real> seen = gain(x, setup_.finer());
     return Real(100) * abs(seen.gain) <= seen.size;
@@ -179,9 +179,9 @@ class GeneralAverages : public AverageEquations<P, R> {
     const std::size_t kk = k_ * k_;
     for (std::size_t a = 0; a < size_; ++a) {
       for (std::size_t b = 0; b < size_; ++b) {
-        const Real* const qq = &at.bends[3 * (a * size_ + b) * kk];
+        const Real* const qq = &at.curvatures[3 * (a * size_ + b) * kk];
         const Real* const qp = qq + kk;
-        const Real* const pq = &at.bends[3 * (b * size_ + a) * kk + kk];
+        const Real* const pq = &at.curvatures[3 * (b * size_ + a) * kk + kk];
         const Real* const pp = qq + 2 * kk;
         for (std::size_t i = 0; i < k_; ++i) {
           Real* const of_q = at.tangent[a * k_ + i];

@@ -73,8 +73,8 @@ class NaturalAverages : public AverageEquations<P, R> {
                     const Real* const second = &block.h[(a * size_ + b) * point_stride];
                     for (std::size_t l = 0; l < count; ++l) size[l] += abs(second[l] * block.q[b * point_stride + l]);
                     if (b <= a) {
-                      detail::add_bend(table_.natural_bend, k_, first, count, second,
-                                       &at.bends[(a * size_ + b) * k_ * k_]);
+                      detail::add_curvatures(table_.natural_tangent_weights, k_, first, count, second,
+                                             &at.curvatures[(a * size_ + b) * k_ * k_]);
                     }
                   }
                 }
@@ -92,7 +92,7 @@ class NaturalAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::in_units_of_noise(x, at, correction);
   }
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::hiding_terms(x, at, correction);
   }
 
@@ -125,7 +125,7 @@ class NaturalAverages : public AverageEquations<P, R> {
         [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
   }
   /// Whether the energy is kept to a hundredth of the work done, where that is promised.
-  bool believable(const Variables& x, const Increment<Real, n>&) const {
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
     if (!setup_.conserves()) return true;
     const detail::Gain<Real> seen = gain(x, setup_.finer());
     return Real(100) * abs(seen.gain) <= seen.size;
@@ -197,9 +197,9 @@ class NaturalAverages : public AverageEquations<P, R> {
           Real* const row = &at.tangent[a * k_ + i][b * k_];
           for (std::size_t j = 0; j < k_; ++j) row[j] = Real(0);
           for (std::size_t c = setup_.diagonal ? b : 0; c < (setup_.diagonal ? b + 1 : size_); ++c) {
-            const Real* const bends = &at.bends[bend_of(a, c) * kk + i * k_];
+            const Real* const curvatures = &at.curvatures[curvature_index(a, c) * kk + i * k_];
             const Real inverse_mass = factor * setup_.inverse_mass[c][b];
-            for (std::size_t j = 0; j < k_; ++j) row[j] += bends[j] * inverse_mass;
+            for (std::size_t j = 0; j < k_; ++j) row[j] += curvatures[j] * inverse_mass;
           }
         }
       }
@@ -207,7 +207,7 @@ class NaturalAverages : public AverageEquations<P, R> {
     for (std::size_t i = 0; i < at.tangent.size(); ++i) at.tangent[i][i] += Real(1);
   }
   /// V'' is symmetric: only the lower half is summed.
-  std::size_t bend_of(std::size_t a, std::size_t b) const { return a < b ? b * size_ + a : a * size_ + b; }
+  std::size_t curvature_index(std::size_t a, std::size_t b) const { return a < b ? b * size_ + a : a * size_ + b; }
 
   /// z1 - z0, each coordinate rounded once: what is lost in a step has a sign, see natural.hpp.
   Increment<Real, n> increment_of(const Variables& x) const {

@@ -13,10 +13,10 @@ template <class Real>
 struct AveragesPoint {
   using Numbers = Vector<Real, dynamic>;
   Numbers residual{};
-  Numbers sum{};     // kappa sum_l W_il f(y_l)
-  Numbers target{};  // what the averages should be, h/kappa times that
-  Numbers noise{};   // what the target rounds by, in units of epsilon, entry by entry
-  Numbers bends{};   // sums of second derivatives, for the tangent
+  Numbers sum{};         // kappa sum_l W_il f(y_l)
+  Numbers target{};      // what the averages should be, h/kappa times that
+  Numbers noise{};       // what the target rounds by, in units of epsilon, entry by entry
+  Numbers curvatures{};  // sums of second derivatives, for the tangent
   Matrix<Real, dynamic> tangent{};
   bool linearised = true;  // evaluate() is to compute the tangent, too
 };
@@ -37,7 +37,7 @@ void clear(AveragesPoint<Real>& at, std::size_t size, std::size_t second) {
   clear(at.noise, size);
   if (at.target.size() != size) at.target = at.residual = at.sum;
   if (!at.linearised) return;
-  clear(at.bends, second);
+  clear(at.curvatures, second);
   if (at.tangent.size() != size) at.tangent = Matrix<Real, dynamic>(size);
 }
 
@@ -112,14 +112,14 @@ void add_averages(const AverageTable<Real>& table, std::size_t first, std::size_
   }
 }
 
-/// bends += sum_l factor_l,ij second_l, k k numbers.
+/// curvatures += sum_l factor_l,ij second_l, k k numbers.
 /// @param factor of a table, @param second one row of a block of points
 template <class Real>
-void add_bend(const std::vector<Real>& factor, std::size_t k, std::size_t first, std::size_t count, const Real* second,
-              Real* bends) {
+void add_curvatures(const std::vector<Real>& factor, std::size_t k, std::size_t first, std::size_t count,
+                    const Real* second, Real* curvatures) {
   for (std::size_t l = 0; l < count; ++l) {
     const Real* const row = factor.data() + (first + l) * k * k;
-    for (std::size_t ij = 0; ij < k * k; ++ij) bends[ij] += row[ij] * second[l];
+    for (std::size_t ij = 0; ij < k * k; ++ij) curvatures[ij] += row[ij] * second[l];
   }
 }
 

@@ -82,7 +82,7 @@ class DiscreteGradientStep : public TargetEquations<R> {
     LinearisedGradient<Real> dh;
     setup_.rule.linearise(problem_, stacked(q0_, p0_), u, at.linearised, dh, effort_);
     Base::clear(at, u.size());
-    const Real kappa = detail::golden<Real>();
+    const Real kappa = detail::golden_ratio<Real>();
     for (std::size_t i = 0; i < u.size(); ++i) {
       const bool of_q = i < size;
       const std::size_t other = of_q ? size + i : i - size;  // J

@@ -16,15 +16,15 @@ namespace hamflow::detail {
 template <class Real>
 struct RoundingOfWork {
   Real works{0};
-  Real bends{0};
-  /// @param bend (V'' d) q: the change of a force along the step times the coordinate
-  void add(const Real& work, const Real& bend) {
+  Real force_changes{0};
+  /// @param force_change (V'' d) q: the change of a force along the step times the coordinate
+  void add(const Real& work, const Real& force_change) {
     works += work * work;
-    bends += bend * bend;
+    force_changes += force_change * force_change;
   }
   Real of_terms(int terms) const {
     constexpr auto epsilon = Epsilon<Real>{};
-    return epsilon * Real(Real(terms) * sqrt(works) + Real(4) * sqrt(bends));
+    return epsilon * Real(Real(terms) * sqrt(works) + Real(4) * sqrt(force_changes));
   }
 };
 

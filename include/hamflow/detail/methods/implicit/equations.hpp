@@ -38,14 +38,17 @@
 //     static increment(unknowns)               E(U), an Increment<S, n>; where it depends on coefficients, a member
 //                                              increment<n>(unknowns) of Setup instead
 // Optional:
-//     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
+//     void remove_residual_rounding(const Variables&, Point&) const        after evaluate(), before the last
+//     corrections: the residual
 //                                              without its own rounding
-//     Real doubts(const Variables& x, const Point&, const Variables& c) const     asked where the correction c counts
+//     Real hidden_terms(const Variables& x, const Point&, const Variables& c) const     asked where the correction c
+//     counts
 //                                              as rounding: how large the terms are where that is far more than a
 //                                              solution rounds by, else 0
 //     Real own_gain(const Variables& x) const  the energy that the equations themselves see the step gain: what the
 //                                              rounding of the solution makes of it
-//     bool believable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that was found
+//     bool energy_error_acceptable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that
+//     was found
 //                                              from a bad start: implicit equations have roots that have nothing to do
 //                                              with the motion
 //     bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const      asked after convergence: whether
@@ -62,7 +65,8 @@
 //     std::string detail() const               for the text of a failure: "5 Gauss points"
 //     static constexpr const char* residual_name
 //     archive(ar)                              what of it changes during a run
-// and, with too_coarse(), refine() (false: as fine as can be), hopeless() (that as a text), and mark() and return_to().
+// and, with too_coarse(), refine() (false: as fine as can be), no_finer_rule_message() (that as a text), and mark() and
+// return_to().
 #pragma once
 
 #include <concepts>

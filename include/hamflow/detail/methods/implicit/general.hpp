@@ -60,7 +60,7 @@ class GeneralElement : public SegmentEquations<P, R> {
     for (std::size_t i = 0; i < x.size(); ++i) at.residual[i] = at.target[i] - x[i];
   }
   /// The residual without the rounding of the product with h, see natural.hpp.
-  void sharpen(const Z& x, Point& at) const {
+  void remove_residual_rounding(const Z& x, Point& at) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
       at.residual[i] = (at.target[i] - x[i]) + product_error(unit_, at.sum[i], at.target[i]);
     }
@@ -81,9 +81,11 @@ class GeneralElement : public SegmentEquations<P, R> {
   }
 
   /// The size of the target where its rounding hides the step, else 0, see natural.hpp.
-  Real doubts(const Z& x, const Point& at, const Z& correction) const { return doubted(at.target, x, correction); }
+  Real hidden_terms(const Z& x, const Point& at, const Z& correction) const {
+    return hidden_terms_of(at.target, x, correction);
+  }
   template <class X>
-  static Real doubted(const X& target, const X& x, const X& correction) {
+  static Real hidden_terms_of(const X& target, const X& x, const X& correction) {
     Real size(0);
     Real step(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -158,7 +160,7 @@ class GeneralElement : public SegmentEquations<P, R> {
     return rounding;
   }
   /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
-  bool believable(const Z&, const Increment<Real, n>& u) const {
+  bool energy_error_acceptable(const Z&, const Increment<Real, n>& u) const {
     if (rule_.points == 1) return true;
     const Work work = finer_work(u);
     return Real(100) * abs(work.gain) <= work.size;
@@ -211,7 +213,7 @@ class GeneralElement : public SegmentEquations<P, R> {
       const V p = detail::on_segment(middle_p, rule_.offset[l], u.p);
       gradient(problem_, q, p, dq, dp);
       hessian(problem_, q, p, qq, qp, pp);
-      const Real part = detail::golden<Real>() * rule_.b[l];
+      const Real part = detail::golden_ratio<Real>() * rule_.b[l];
       const Real weight = h_ * rule_.b[l];
       const Real slope = weight * (Real(0.5) + rule_.offset[l]);
       for (std::size_t i = 0; i < size; ++i) {

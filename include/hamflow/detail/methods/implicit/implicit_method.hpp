@@ -59,8 +59,8 @@ class ImplicitMethod {
   /// @param options those of E::Setup
   template <class Options>
   ImplicitMethod(const P& problem, const Options& options) : setup_(problem, options), options_(setup_.newton()) {
-    if constexpr (goes_straight) {
-      straight_ = !options_.tolerance && !options_.diagnostics && !setup_.automatic();
+    if constexpr (has_fast_path) {
+      uses_fast_path_ = !options_.tolerance && !options_.diagnostics && !setup_.automatic();
     }
   }
 
@@ -111,14 +111,14 @@ class ImplicitMethod {
     NewtonLog log;
     again.options_.halve = false;
     (void)again.attempt(problem, h, copy, 0, nullptr, &log);
-    if constexpr (requires { again.setup_.hopeless(); }) {
+    if constexpr (requires { again.setup_.no_finer_rule_message(); }) {
       if (log.change_unseen()) {
         return "H changes along the step by more than its rounding, although no rule of up to " +
                again.setup_.detail() +
                " sees any gain: the step is far too long for them, or H has a kink or a jump there, as abs(x) has, "
                "where no quadrature keeps the energy";
       }
-      if (log.too_coarse()) return again.setup_.hopeless();
+      if (log.too_coarse()) return again.setup_.no_finer_rule_message();
     }
     return solver_name(options_.iteration) + " did not converge in " + std::to_string(options_.max_iterations) +
            (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + again.setup_.detail() +
@@ -146,8 +146,8 @@ class ImplicitMethod {
  private:
   static constexpr int deepest_halving = 10;
   /// Most steps go a road that the equations know by themselves, with the bits of Newton's.
-  static constexpr bool goes_straight = requires(const E& step, const typename E::Memory& memory) {
-    step.straight(memory, 1);
+  static constexpr bool has_fast_path = requires(const E& step, const typename E::Memory& memory) {
+    step.fast_path(memory, 1);
   };
 
   static std::string end_of_solution(const NewtonLog& log) {
@@ -159,7 +159,7 @@ class ImplicitMethod {
   [[gnu::always_inline]] Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {
     const long long before = effort_.linear_solves;
     const Outcome outcome =
-        solved_straight(problem, h, z, unknowns) ? Outcome::done : attempt(problem, h, z, 0, unknowns, nullptr);
+        solved_by_fast_path(problem, h, z, unknowns) ? Outcome::done : attempt(problem, h, z, 0, unknowns, nullptr);
     if (outcome != Outcome::done) return outcome;
     const long long solves = effort_.linear_solves - before;
     effort_.solves_min = effort_.steps == 0 || solves < effort_.solves_min ? solves : effort_.solves_min;
@@ -206,15 +206,15 @@ class ImplicitMethod {
   }
 
   /// In place, in the loop over steps: what others get the address of lies in memory on the way from step to step.
-  [[gnu::always_inline]] bool solved_straight(const P& problem, const Real& h, PhasePoint<A, n>& z,
-                                              Unknowns* unknowns) {
-    if constexpr (goes_straight) {
-      if (!straight_ || !newton_.trusts_memory()) [[unlikely]]
+  [[gnu::always_inline]] bool solved_by_fast_path(const P& problem, const Real& h, PhasePoint<A, n>& z,
+                                                  Unknowns* unknowns) {
+    if constexpr (has_fast_path) {
+      if (!uses_fast_path_ || !newton_.uses_memory()) [[unlikely]]
         return false;
       const Vector<Real, n> q0 = z.positions();
       const Vector<Real, n> p0 = z.momenta();
       const auto end =
-          E(setup_, problem, h, q0, p0, effort_).straight(newton_.memory().predicted(), options_.max_iterations);
+          E(setup_, problem, h, q0, p0, effort_).fast_path(newton_.memory().predicted(), options_.max_iterations);
       if (end.corrections == 0) [[unlikely]]
         return false;
       for (std::size_t i = 0; i < n; ++i) {
@@ -235,9 +235,9 @@ class ImplicitMethod {
              Unknowns* unknowns, NewtonLog* log) {
     Solution found;
     const E step(setup_, problem, h, q0, p0, effort_);
-    const auto verdict = newton_.solve(step, NewtonReport{options_, effort_, diagnostics_, log}, found);
-    if (!verdict.settled) [[unlikely]] {
-      const auto other = elsewhere(problem, h, q0, p0, verdict, found, log);
+    const auto first = newton_.solve(step, NewtonReport{options_, effort_, diagnostics_, log}, found);
+    if (!first.settled) [[unlikely]] {
+      const auto other = retry_from_other_guesses(problem, h, q0, p0, first, found, log);
       if (!other) return false;
       found = *other;
     }
@@ -267,19 +267,18 @@ class ImplicitMethod {
   }
 
   // Both take values and return one: what solve() works on stays in registers.
-  [[gnu::cold, gnu::noinline]] std::optional<Solution> elsewhere(const P& problem, const Real& h,
-                                                                 const Vector<Real, n> q0, const Vector<Real, n> p0,
-                                                                 const typename Newton<E>::Verdict verdict,
-                                                                 Solution found, NewtonLog* log) {
+  [[gnu::cold, gnu::noinline]] std::optional<Solution> retry_from_other_guesses(
+      const P& problem, const Real& h, const Vector<Real, n> q0, const Vector<Real, n> p0,
+      const typename Newton<E>::FirstAttempt first, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
-    if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), report, verdict, found)) return found;
-    if (verdict.refused) return {};
+    if (newton_.retry_from_other_guesses(E(setup_, problem, h, q0, p0, effort_), report, first, found)) return found;
+    if (first.refused) return {};
     if (options_.iteration == Iteration::fixed_point_or_newton) {
       NewtonOptions by_newton = options_;
       by_newton.iteration = Iteration::newton;
       by_newton.max_iterations = NewtonOptions{}.max_iterations;
       const NewtonReport again{by_newton, effort_, diagnostics_, log};
-      if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), again, {}, found)) return found;
+      if (newton_.retry_from_other_guesses(E(setup_, problem, h, q0, p0, effort_), again, {}, found)) return found;
     }
     if (options_.halve || options_.iteration != Iteration::newton) return {};
     return continued(problem, h, q0, p0, log);
@@ -314,7 +313,7 @@ class ImplicitMethod {
     }
     if (log != nullptr) log->note_end_of_solution(solved);
     if (solved < 1) return {};
-    newton_.distrust_memory();
+    newton_.note_continued_step();
     return found;
   }
 
@@ -382,7 +381,7 @@ class ImplicitMethod {
   Effort effort_{};
   StepDiagnostics diagnostics_{};
   Newton<E> newton_;
-  bool straight_ = false;  // nothing is asked for that the straight road does not tell
+  bool uses_fast_path_ = false;  // nothing is asked for that the fast_path road does not tell
 };
 
 }  // namespace hamflow

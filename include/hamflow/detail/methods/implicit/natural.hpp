@@ -63,9 +63,9 @@ class NaturalElement : public SegmentEquations<P, R> {
   [[gnu::always_inline]] V started(const V& impulse) const { return displacement(impulse, Real(0.5)); }
 
   /// The whole iteration at once, as it mostly goes (plane_road.hpp); where it goes otherwise nothing is counted.
-  [[gnu::always_inline]] PlaneEnd straight(const V& impulse,
-                                           int most) const requires TakesTwo<P> && std::same_as<Real, double> {
-    const PlaneEnd end = plane_road(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
+  [[gnu::always_inline]] FastPathResult fast_path(const V& impulse,
+                                                  int most) const requires TakesTwo<P> && std::same_as<Real, double> {
+    const FastPathResult end = two_variable_fast_path(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
     const long long evaluations = static_cast<long long>(end.corrections) * rule_.points;
     effort_.force += evaluations;
     effort_.hessian += evaluations;
@@ -80,7 +80,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] = at.target[i] - d[i];
   }
   /// The residual without its own rounding. In the plane taken() makes up for that, out of the way of the solution.
-  void sharpen(const V& d, Point& at) const requires(n > 2) {
+  void remove_residual_rounding(const V& d, Point& at) const requires(n > 2) {
     const V lost = lost_in_residual(at, half_impulse(at));
     for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] += lost[i];
   }
@@ -112,12 +112,12 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   /// The size of the target where its rounding hides the step, else 0: at a guess so far off that forces round by more
   /// than the whole step, any correction looks small.
-  [[gnu::always_inline]] Real doubts(const V& d, const Point& at, const V& correction) const {
-    return doubted(flight_, at.target, d, correction);
+  [[gnu::always_inline]] Real hidden_terms(const V& d, const Point& at, const V& correction) const {
+    return hidden_terms_of(flight_, at.target, d, correction);
   }
   template <class X>
-  [[gnu::always_inline]] static Real doubted(const Real& free_displacement, const X& target, const X& d,
-                                             const X& correction) {
+  [[gnu::always_inline]] static Real hidden_terms_of(const Real& free_displacement, const X& target, const X& d,
+                                                     const X& correction) {
     X next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
     const Real size = max_norm(target);
@@ -205,7 +205,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     return rounding;
   }
   /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
-  bool believable(const V&, const Increment<Real, n>& taken) const {
+  bool energy_error_acceptable(const V&, const Increment<Real, n>& taken) const {
     if (rule_.points == 1) return true;
     const detail::Gain<Real> work = finer_work(taken, 1);
     return Real(100) * abs(work.gain) <= work.size;
@@ -294,7 +294,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     sum = zeros_like(d);
     for (std::size_t l = 0; l < rule_.c.size(); ++l) {
       force_and_hessian(problem_, detail::on_segment(middle, rule_.offset[l], d), f, second);
-      const Real force_weight = detail::golden<Real>() * rule_.b[l];
+      const Real force_weight = detail::golden_ratio<Real>() * rule_.b[l];
       const Real weight = rule_.b[l] * (Real(0.5) + rule_.offset[l]);
       for (std::size_t i = 0; i < d.size(); ++i) {
         sum[i] += force_weight * f[i];
@@ -322,7 +322,7 @@ class NaturalElement : public SegmentEquations<P, R> {
         Matrix<Real, n> second{};
         for (std::size_t i = 0; i < n; ++i) q[i] = middle[i] + offset[l] * d[i];
         force_and_hessian(problem_, q, f, second);
-        const Real force_weight = detail::golden<Real>() * b[l];
+        const Real force_weight = detail::golden_ratio<Real>() * b[l];
         const Real weight = b[l] * (half + offset[l]);
         for (std::size_t i = 0; i < n; ++i) {
           forces[i][l] = force_weight * f[i];

@@ -65,55 +65,56 @@ class Newton {
   };
 
   /// How the first guess went.
-  struct Verdict {
-    bool settled = false;  // its solution is that of the step; else elsewhere() has to look
+  struct FirstAttempt {
+    bool settled = false;  // its solution is that of the step; else retry_from_other_guesses() has to look
     bool found = false;    // but it is a solution, from far away
     bool refused = false;  // criterion "seed"
     Guess start = Guess::extrapolated;
   };
 
   /// Solves the step from its first guess. Where that is in doubt nothing is tried.
-  Verdict solve(const E& step, const NewtonReport& report, Solution& found) const {
-    if (doubt_ > 0) [[unlikely]]
+  FirstAttempt solve(const E& step, const NewtonReport& report, Solution& found) const {
+    if (guess_failures_ > 0) [[unlikely]]
       return {};
     const Guess start = memory_.empty() ? Guess::predicted : Guess::extrapolated;
     found.x = memory_.empty() ? step.predicted() : step.started(memory_.predicted());
     Point at;
-    Course course;
+    IterationResult result;
     if (report.log != nullptr) report.log->attempt(start);
-    const Ending ending = iterate<false>(step, report, found, at, course);
-    return {ending == Ending::converged && !course.missed, ending == Ending::converged, ending == Ending::refused,
-            start};
+    const Ending ending = iterate<false>(step, report, found, at, result);
+    return {ending == Ending::converged && !result.guess_was_far, ending == Ending::converged,
+            ending == Ending::refused, start};
   }
   /// The first guess has failed, is in doubt, or has led to a root from far away. @return whether a solution was found
-  [[gnu::cold, gnu::noinline]] bool elsewhere(const E& step, const NewtonReport& report, const Verdict& verdict,
-                                              Solution& found) {
-    if (verdict.refused) return false;
-    if (!verdict.found) return from_other_starts(step, report, found, verdict.start);
-    if (!believable(step, report, found)) {
+  [[gnu::cold, gnu::noinline]] bool retry_from_other_guesses(const E& step, const NewtonReport& report,
+                                                             const FirstAttempt& first, Solution& found) {
+    if (first.refused) return false;
+    if (!first.found) return from_other_starts(step, report, found, first.start);
+    if (!energy_error_acceptable(step, report, found)) {
       const Solution far = found;
-      if (!from_other_starts(step, report, found, verdict.start)) found = far;  // it solves the equations, after all
+      if (!from_other_starts(step, report, found, first.start)) found = far;  // it solves the equations, after all
     }
-    doubt_ = good_guesses_wanted;
+    guess_failures_ = good_guesses_needed;
     return true;
   }
   /// From a guess that is neither extrapolated nor one of the usual starts.
   [[gnu::cold, gnu::noinline]] bool solve_from(const E& step, const NewtonReport& report, Solution& found) const {
     Point at;
-    Course course;
-    return iterate<false>(step, report, found, at, course) == Ending::converged && believable(step, report, found);
+    IterationResult result;
+    return iterate<false>(step, report, found, at, result) == Ending::converged &&
+           energy_error_acceptable(step, report, found);
   }
   /// The step was solved in such a way: what is extrapolated is in doubt.
-  void distrust_memory() {
+  void note_continued_step() {
     ++solved_[static_cast<int>(Guess::continued)];
-    doubt_ = good_guesses_wanted;
+    guess_failures_ = good_guesses_needed;
   }
   /// Solves the step again, from its solution with coarser equations.
   [[gnu::noinline]] bool solve_refined(const E& step, const NewtonReport& report, Solution& found) {
     Point at;
-    Course course;
+    IterationResult result;
     if (report.log != nullptr) report.log->attempt(Guess::converged);
-    const Ending ending = iterate<false>(step, report, found, at, course);
+    const Ending ending = iterate<false>(step, report, found, at, result);
     if (ending != Ending::diverged) return ending == Ending::converged;
     return from_other_starts(step, report, found, Guess::converged);
   }
@@ -123,15 +124,15 @@ class Newton {
   /// What is remembered belongs to steps of one length in one direction.
   void forget() {
     memory_.forget();
-    doubt_ = 0;
+    guess_failures_ = 0;
   }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(memory_, doubt_);
+    ar(memory_, guess_failures_);
   }
   /// For lanes: what is remembered, and whether the next step begins with it.
   const auto& memory() const { return memory_; }
-  bool trusts_memory() const { return doubt_ == 0 && !memory_.empty(); }
+  bool uses_memory() const { return guess_failures_ == 0 && !memory_.empty(); }
   void remember(const typename E::Memory& memory) { memory_.remember(memory); }
   /// How many steps were solved from there after the first guess had failed or was in doubt. No part of a run's state.
   long long solved_from(Guess start) const { return solved_[static_cast<int>(start)]; }
@@ -143,9 +144,9 @@ class Newton {
     refused  // at rounding level above the tolerance, which criterion "seed" calls an error: a solution was found
   };
   /// Of an iteration that converged.
-  struct Course {
-    bool missed = false;  // the first correction was larger than the terms of the step
-    Real noise{0};        // what the last correction was compared with
+  struct IterationResult {
+    bool guess_was_far = false;  // the first correction was larger than the terms of the step
+    Real noise{0};               // what the last correction was compared with
   };
   static constexpr auto epsilon = Epsilon<Real>{};
 
@@ -153,7 +154,7 @@ class Newton {
   /// step takes a quarter more).
   template <bool damped>
   [[gnu::noinline]] Ending iterate(const E& step, const NewtonReport& report, Solution& found, Point& at,
-                                   Course& course) const {
+                                   IterationResult& result) const {
     const NewtonOptions& options = report.options;
     Variables x = found.x;
     Real noise(0);
@@ -172,7 +173,7 @@ class Newton {
       }
       if (!damped || !evaluated) step.evaluate(x, at);
       evaluated = false;
-      if constexpr (detail::StartsElsewhere<E>) {
+      if constexpr (detail::EvaluatesNearbyStates<E>) {
         // What was asked far from a solution, where forces are larger, is not true at one.
         if (rounding.size() > 0 && detail::sum_of(at.noise) < rounded_terms / 2) {
           rounding = {};
@@ -191,7 +192,7 @@ class Newton {
             if (!small) ++report.effort.stagnated;
             found.taken = step.taken(x, at);
             found.x = x;
-            course = {progress.began_far_away(noise), noise};
+            result = {progress.began_far_away(noise), noise};
             return Ending::converged;
           }
         }
@@ -201,8 +202,8 @@ class Newton {
         if (report.log != nullptr) report.log->remark("at rounding level, above the tolerance");
         return Ending::refused;
       }
-      if constexpr (requires { step.sharpen(x, at); }) {
-        if (k > 0) step.sharpen(x, at);  // this correction is the last one, mostly
+      if constexpr (requires { step.remove_residual_rounding(x, at); }) {
+        if (k > 0) step.remove_residual_rounding(x, at);  // this correction is the last one, mostly
       }
       const auto solved = [&]() -> Variables {
         if constexpr (detail::AnyIteration<E>) {
@@ -247,20 +248,20 @@ class Newton {
         }
       }
       [[maybe_unused]] bool has_stalled = false;
-      if constexpr (detail::StartsElsewhere<E>) {
+      if constexpr (detail::EvaluatesNearbyStates<E>) {
         has_stalled = decision == NewtonDecision::stalled && rounding.size() == 0;
         if (has_stalled && iteration == Iteration::fixed_point) {
           at_rounding = max_norm(correction) <= Real(4) * detail::rounding_by_unknowns(step, x);
         }
       }
-      if constexpr (requires { step.doubts(x, at, correction); }) {
+      if constexpr (requires { step.hidden_terms(x, at, correction); }) {
         if (at_rounding) {
-          const Real terms = step.doubts(x, at, correction);
+          const Real terms = step.hidden_terms(x, at, correction);
           if (terms > Real(0) && progress.goes_on_with(terms)) [[unlikely]]
             at_rounding = false;
         }
       }
-      if constexpr (detail::StartsElsewhere<E>) {
+      if constexpr (detail::EvaluatesNearbyStates<E>) {
         if (!at_rounding && has_stalled) {
           rounding = detail::rounding_by_state(step, x);
           rounded_terms = detail::sum_of(at.noise);
@@ -269,17 +270,17 @@ class Newton {
       }
       was_at_rounding = was_at_rounding || at_rounding;
       if (at_rounding && !options.tolerance) {
-        if constexpr (requires { step.sharpen(x, at); }) {
+        if constexpr (requires { step.remove_residual_rounding(x, at); }) {
           // The guess was the solution, as it is of a constant force: what its residual had lost to rounding had a sign
           // there, and with it the energy that walls bring back over and over.
           if (k == 0) {
-            step.sharpen(x, at);
+            step.remove_residual_rounding(x, at);
             correction = solved();
           }
         }
         found.taken = step.taken(x, at, correction);
         found.x = x;
-        course = {progress.began_far_away(noise), noise};
+        result = {progress.began_far_away(noise), noise};
         return Ending::converged;
       }
       if constexpr (damped) {
@@ -317,33 +318,33 @@ class Newton {
     return false;
   }
 
-  /// @param tried the start that has failed already; `extrapolated` with doubt_ > 0: none
+  /// @param tried the start that has failed already; `extrapolated` with guess_failures_ > 0: none
   [[gnu::cold, gnu::noinline]] bool from_other_starts(const E& step, const NewtonReport& report, Solution& found,
                                                       Guess tried) {
-    const bool in_doubt = doubt_ > 0;
-    const Guess order[] = {in_doubt ? Guess::last_state : Guess::predicted,
-                           in_doubt ? Guess::predicted : Guess::last_state, Guess::damped};
+    const bool has_failures = guess_failures_ > 0;
+    const Guess order[] = {has_failures ? Guess::last_state : Guess::predicted,
+                           has_failures ? Guess::predicted : Guess::last_state, Guess::damped};
     for (const Guess start : order) {
       if (start == tried) continue;
       if (start == Guess::damped && report.options.iteration != Iteration::newton) continue;  // a part of a Newton step
       found.x = start == Guess::predicted ? step.predicted() : step.last_state();
       if (report.log != nullptr) report.log->attempt(start);
       Point at;
-      Course course;
-      const Ending ending = start == Guess::damped ? iterate<true>(step, report, found, at, course)
-                                                   : iterate<false>(step, report, found, at, course);
+      IterationResult result;
+      const Ending ending = start == Guess::damped ? iterate<true>(step, report, found, at, result)
+                                                   : iterate<false>(step, report, found, at, result);
       if (ending == Ending::refused) return false;
-      if (ending == Ending::diverged || !believable(step, report, found)) continue;
+      if (ending == Ending::diverged || !energy_error_acceptable(step, report, found)) continue;
       ++solved_[static_cast<int>(start)];
-      judge_extrapolation(step, found, at, course.noise);
+      judge_extrapolation(step, found, at, result.noise);
       return true;
     }
     return false;
   }
 
-  static bool believable(const E& step, const NewtonReport& report, const Solution& found) {
-    if constexpr (requires { step.believable(found.x, found.taken); }) {
-      if (!step.believable(found.x, found.taken)) {
+  static bool energy_error_acceptable(const E& step, const NewtonReport& report, const Solution& found) {
+    if constexpr (requires { step.energy_error_acceptable(found.x, found.taken); }) {
+      if (!step.energy_error_acceptable(found.x, found.taken)) {
         if (report.log != nullptr) report.log->remark("a root that does not keep the energy");
         return false;
       }
@@ -354,16 +355,16 @@ class Newton {
   /// Whether the extrapolated guess would have been nearer than the step is long.
   void judge_extrapolation(const E& step, const Solution& found, const Point& at, const Real& noise) {
     bool good = false;
-    if (doubt_ > 0 && !memory_.empty()) {
+    if (guess_failures_ > 0 && !memory_.empty()) {
       Variables difference = step.started(memory_.predicted());
       for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= found.x[i];
       good = epsilon * step.measure(found.x, at, difference).size <= noise;
     }
-    doubt_ = good_guesses_wanted_after(doubt_, good);
+    guess_failures_ = good_guesses_needed_after(guess_failures_, good);
   }
 
   typename detail::GuessesOf<E>::type memory_;
-  int doubt_ = 0;  // good extrapolations still wanted before one is a first guess again
+  int guess_failures_ = 0;  // good extrapolations still wanted before one is a first guess again
   long long solved_[6] = {};
 };
 

@@ -27,7 +27,7 @@ concept TakesTwo = P::dimension == 2 && requires {
 namespace detail {
 
 /// Sums over the points, kappa F and the entries of int alpha V''.
-struct PlaneSums {
+struct TwoVariableSums {
   double fx = 0, fy = 0, xx = 0, xy = 0, yy = 0;
   [[gnu::always_inline]] void add(double more_fx, double more_fy, double more_xx, double more_xy, double more_yy) {
     fx += more_fx;
@@ -40,9 +40,9 @@ struct PlaneSums {
 
 /// The last of an odd number of points stands in both lanes.
 template <class P>
-[[gnu::always_inline]] inline PlaneSums plane_sums(const P& problem, const GaussRule<double>& rule, double middle_x,
-                                                   double middle_y, double dx, double dy) {
-  PlaneSums sums;
+[[gnu::always_inline]] inline TwoVariableSums plane_sums(const P& problem, const GaussRule<double>& rule,
+                                                         double middle_x, double middle_y, double dx, double dy) {
+  TwoVariableSums sums;
   const double* offset = rule.offset.data();
   const double* b = rule.b.data();
   const int s = rule.points;
@@ -54,7 +54,7 @@ template <class P>
     Vector<Two, 2> f;
     Matrix<Two, 2> second;
     problem.force_and_hessian(q, f, second);
-    const Two of_force = golden<double>() * weights;
+    const Two of_force = golden_ratio<double>() * weights;
     const Two of_second = weights * (0.5 + offsets);
     const Two fx = of_force * f[0], fy = of_force * f[1];
     const Two xx = of_second * second[0][0], xy = of_second * second[0][1], yy = of_second * second[1][1];
@@ -68,7 +68,7 @@ template <class P>
 
 /// Where the road ends: z1 - z0, and after how many corrections; 0: nowhere. Two numbers, and no vectors of them, so
 /// that they stay in registers.
-struct PlaneEnd {
+struct FastPathResult {
   int corrections = 0;
   Two d{};
   Two impulse{};
@@ -76,9 +76,11 @@ struct PlaneEnd {
 
 /// @param guess the impulse that is extrapolated   @param free_displacement the largest |h| |M^-1| |p0|
 template <class P>
-[[gnu::always_inline]] inline PlaneEnd plane_road(const P& problem, const GaussRule<double>& rule, double h,
-                                                  const Vector<double, 2>& q0, const Vector<double, 2>& p0,
-                                                  const Vector<double, 2>& guess, double free_displacement, int most) {
+[[gnu::always_inline]] inline FastPathResult two_variable_fast_path(const P& problem, const GaussRule<double>& rule,
+                                                                    double h, const Vector<double, 2>& q0,
+                                                                    const Vector<double, 2>& p0,
+                                                                    const Vector<double, 2>& guess,
+                                                                    double free_displacement, int most) {
   using V = Vector<double, 2>;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const auto velocity_of = [&](double x, double y) __attribute__((always_inline)) {
@@ -86,13 +88,13 @@ template <class P>
     velocity(problem, V{x, y}, v);
     return v;
   };
-  const double unit = 0.5 * (h / detail::golden<double>());
+  const double unit = 0.5 * (h / detail::golden_ratio<double>());
   const double factor = h * h / 2;
   const V start = velocity_of(p0[0] + 0.5 * guess[0], p0[1] + 0.5 * guess[1]);
   double dx = h * start[0], dy = h * start[1];
   NewtonProgress<double> progress;
   for (int k = 0; k < most; ++k) {
-    const detail::PlaneSums sums = detail::plane_sums(problem, rule, q0[0] + 0.5 * dx, q0[1] + 0.5 * dy, dx, dy);
+    const detail::TwoVariableSums sums = detail::plane_sums(problem, rule, q0[0] + 0.5 * dx, q0[1] + 0.5 * dy, dx, dy);
     const double half_x = unit * sums.fx, half_y = unit * sums.fy;
     const double middle_x = p0[0] + half_x, middle_y = p0[1] + half_y;
     const V v = velocity_of(middle_x, middle_y);

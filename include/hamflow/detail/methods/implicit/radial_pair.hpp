@@ -158,15 +158,17 @@ struct RadialPair {
       }
       law[l] = law_at(problem, u[l]);
     }
-    const auto [mean, bend] = recorded.differences(problem, u0, u1);
+    const auto [mean, slope_difference] = recorded.differences(problem, u0, u1);
     for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
-    if (k > 1) project(stages, h, u0, mean, bend, R(R(4) * h * strength));
+    if (k > 1) project(stages, h, u0, mean, slope_difference, R(R(4) * h * strength));
   }
 
  private:
-  /// @param mean, bend phi[u0, u1] and phi'[u0, u1]   @param response what a factor of 1 changes u' by, over u
+  /// @param mean, slope_difference phi[u0, u1] and phi'[u0, u1]   @param response what a factor of 1 changes u' by,
+  /// over u
   template <class R>
-  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const S& bend, const R& response) {
+  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const S& slope_difference,
+               const R& response) {
     const std::size_t k = stages.count;
     S gap[most];     // g
     S work(R(0));    // (u', g)
@@ -180,7 +182,7 @@ struct RadialPair {
       for (std::size_t j = 0; j < k; ++j) error = error - (h * stages.a(l, j)) * rate[j];
       work = work + stages.b[l] * (rate[l] * gap[l]);
       square = square + stages.b[l] * (rate[l] * rate[l]);
-      const S here = response * (u[l] * (bend * error));
+      const S here = response * (u[l] * (slope_difference * error));
       unit = unit + stages.b[l] * (here * here);
       largest = larger(largest, R(abs(value_of(gap[l]))));
       loose = larger(loose, reach[l]);

@@ -12,7 +12,7 @@ namespace hamflow::detail {
 
 /// Whose residual can be asked for from a state nearby, too.
 template <class E>
-concept StartsElsewhere = requires(const E& step, typename E::Point& at) {
+concept EvaluatesNearbyStates = requires(const E& step, typename E::Point& at) {
   step.from(step.positions(), step.momenta());
   at.noise;
 };

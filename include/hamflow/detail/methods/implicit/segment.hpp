@@ -84,7 +84,7 @@ class SegmentSetup {
     rule_ = &gauss_rule<Real>(rule_->points + 1);
     return true;
   }
-  std::string hopeless() const {
+  std::string no_finer_rule_message() const {
     return "the force varies so much along the step, or the step is so stiff, that " + detail() +
            " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
   }
@@ -146,7 +146,7 @@ class SegmentEquations {
 
  protected:
   SegmentEquations(const P& problem, const Real& h, const GaussRule<Real>& rule)
-      : problem_(problem), h_(h), unit_(h / detail::golden<Real>()), rule_(rule) {}
+      : problem_(problem), h_(h), unit_(h / detail::golden_ratio<Real>()), rule_(rule) {}
 
   const P& problem_;
   const Real h_;

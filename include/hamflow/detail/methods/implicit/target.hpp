@@ -53,7 +53,7 @@ class TargetEquations {
   /// beside a singularity, where forces round by more than the whole step, any correction and any residual look small;
   /// at the next one, away from there, they do not. Newton's last correction is some 10^-8 of a step, and what remains
   /// of the residual that times the stiffness.
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
     Real step(0);
     Real moved(0);
     Real left(0);
@@ -67,7 +67,7 @@ class TargetEquations {
   }
 
  protected:
-  explicit TargetEquations(const Real& h) : h_(h), unit_(h / detail::golden<Real>()) {}
+  explicit TargetEquations(const Real& h) : h_(h), unit_(h / detail::golden_ratio<Real>()) {}
 
   /// Zeros, and a tangent of zeros where one is wanted.
   static void clear(Point& at, std::size_t size) {
@@ -97,7 +97,7 @@ class TargetEquations {
   }
 
   const Real h_;
-  const Real unit_;  // h/kappa, see detail::golden
+  const Real unit_;  // h/kappa, see detail::golden_ratio
 };
 
 }  // namespace hamflow
