@@ -155,7 +155,7 @@ class OtherImplicit(CommandCase):
     def test_a_step_without_a_solution_says_where_it_ends(self):
         done = self.hamflow("run", "plane.toml", "--out", "none", "--set", "problem.initial={ q = [1.6, 0], p = [0, 0.5] }", "--set",
                             "run.dt=0.6", status=1)
-        self.assertRegex(done.stderr, r"the solution that grows out of the beginning of the step could be followed to 0\.9\d* of its length")
+        self.assertRegex(done.stderr, r"the solution could be continued from the beginning of the step to 0\.9\d* of its length")
 
     def test_what_is_left_of_a_tangent_of_old_is_no_drift(self):
         self.write("swing.toml", "[problem]\nname='formula'\ncoordinates=['x']\nhamiltonian='p_x^2/2 - cos(x)'\ninitial={q=[2],p=[0]}\n"

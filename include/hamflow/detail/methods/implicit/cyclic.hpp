@@ -1,14 +1,15 @@
-// cg(1) where the last coordinate is cyclic: its momentum l is constant, Newton runs in the other coordinates, and the
-// last one follows by quadrature on the converged segment.   [Gross1999, (2.98)-(2.106)]
+// cg(1) with a cyclic last coordinate: its momentum l is constant, Newton's method solves for the other coordinates,
+// and the last one follows by quadrature on the converged segment.   [Gross1999, (2.98)-(2.106)]
 //     q_n(1) - q_n(0) = h sum_l b_l dH/dp_n(q(alpha_l), l).
-// With polar coordinates that is the seed's scalar Newton in r, and the angular momentum is conserved by construction.
+// In polar coordinates this is the scalar Newton iteration in r of [Gross1999], and the angular momentum is conserved
+// by construction.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/natural.hpp"
 
 namespace hamflow {
 
-/// The equations of the rest with one coordinate more.
+/// The equations of the other coordinates, extended by the cyclic one.
 template <class P, class R>
 class CyclicElement : public SegmentEquations<P, R> {
   using Base = SegmentEquations<P, R>;

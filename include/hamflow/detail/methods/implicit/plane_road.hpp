@@ -1,8 +1,8 @@
-// The road that nearly every step of cg(1) in the plane takes: Newton's corrections from the extrapolated guess until
-// NewtonProgress ends them, in doubles, with nothing to report. The same operations in the same order as
-// natural.hpp and newton.hpp, written out in plain numbers, which stay in registers: a step is one chain from guess to
-// guess, and what goes through memory on it, or is read there in pairs that were written one by one, costs a fifth. Two
-// Gauss points are evaluated in one register and added one after the other. A step that does not end there is Newton's.
+// The fast path of cg(1) for two coordinates, which nearly every step takes: Newton's corrections from the extrapolated
+// guess until NewtonProgress ends them, in double, without reports. It has the same operations in the same order as
+// natural.hpp and newton.hpp, on plain numbers that stay in registers: a step is one chain of dependent operations from
+// guess to guess, and passing numbers through memory, or reading pairs that were written separately, costs a fifth. Two
+// Gauss points are evaluated in one register and summed one after the other. All other steps are left to Newton.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace hamflow {
 
-/// A problem in the plane whose `force_and_hessian` takes Two as well as a number says so by a constant `takes_two`:
-/// it has no branches there, and no functions but roots.
+/// A problem in the plane with a constant `takes_two`: its `force_and_hessian` accepts Two as a number type, and has no
+/// branches and no functions except roots.
 template <class P>
 concept TakesTwo = P::dimension == 2 && requires {
   requires P::takes_two;
@@ -38,7 +38,7 @@ struct TwoVariableSums {
   }
 };
 
-/// The last of an odd number of points stands in both lanes.
+/// The last of an odd number of points is in both lanes.
 template <class P>
 [[gnu::always_inline]] inline TwoVariableSums plane_sums(const P& problem, const GaussRule<double>& rule,
                                                          double middle_x, double middle_y, double dx, double dy) {
@@ -66,15 +66,15 @@ template <class P>
 
 }  // namespace detail
 
-/// Where the road ends: z1 - z0, and after how many corrections; 0: nowhere. Two numbers, and no vectors of them, so
-/// that they stay in registers.
+/// The result of the fast path: z1 - z0 and the number of corrections, 0 if it did not converge. Plain numbers instead
+/// of vectors, so that they stay in registers.
 struct FastPathResult {
   int corrections = 0;
   Two d{};
   Two impulse{};
 };
 
-/// @param guess the impulse that is extrapolated   @param free_displacement the largest |h| |M^-1| |p0|
+/// @param guess the extrapolated impulse @param free_displacement the largest |h| |M^-1| |p0|
 template <class P>
 [[gnu::always_inline]] inline FastPathResult two_variable_fast_path(const P& problem, const GaussRule<double>& rule,
                                                                     double h, const Vector<double, 2>& q0,
