@@ -1,6 +1,7 @@
 // Generalised coordinates Q of a constrained motion. They follow from the parametrisation q = G(Q) of the manifold by
 // differentiation:   [HLW2006, Sect. VII.1.2; Sonnleitner2010, p. 24, whose formula for p lacks M]
 //     P = G'^T p,   p = M G' A^-1 P,   A = G'^T M G',   H(Q, P) = P^T A^-1 P/2 + V(G(Q)).
+//
 // `Map` is a class with the numbers of generalised and Cartesian coordinates and G for any number type:
 //     struct Circle {
 //       static constexpr std::size_t dimension = 1, space = 2;

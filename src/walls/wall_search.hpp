@@ -1,7 +1,8 @@
-// Finds where a path first hits a wall. The path is Psi_t, 0 <= t <= length: partial steps of the method. The two ends
-// of a short path suffice: it ends beyond a wall, or it turns at most once and may have crossed the wall twice. A
-// longer path may cross several times. It is divided into pieces such that a cubic Hermite interpolant through the ends
-// of a piece agrees with a point between them; then a coordinate turns at most once in a piece.
+// Finds where a path first hits a wall. The path is Psi_t, 0 <= t <= length: partial steps of the method.
+//
+// The two ends of a short path suffice: it ends beyond a wall, or it turns at most once and may have crossed the wall
+// twice. A longer path may cross several times. It is divided into pieces such that a cubic Hermite interpolant through
+// the ends of a piece agrees with a point between them; then a coordinate turns at most once in a piece.
 #pragma once
 
 #include <limits>

@@ -4,11 +4,12 @@
 // Each of the three parts has an exact flow:
 //     A:  p <- p - h H_q(q, y),  x <- x + h H_p(q, y)
 //     B:  q <- q + h H_p(x, p),  y <- y - h H_q(x, p)
-// C: (q - x, p - y) rotates by the angle 2 omega h; q + x and p + y do not change. tao2 is A(h/2) B(h/2) C(h) B(h/2)
-// A(h/2), tao4 its triple jump. It is symplectic, symmetric and reversible as a map of (q, x, p, y), but not as a map
-// of (q, p), which is why the copy is part of the state of a run. The copy starts as x = q, y = p. The method nearly
-// conserves the energy of the coupled copies, and H(q, p) as long as they stay together, which requires an omega much
-// larger than the frequencies of the motion. Errors grow with omega h^r, so omega h must be small.
+//     C:  (q - x, p - y) rotates by the angle 2 omega h; q + x and p + y do not change.
+// tao2 is A(h/2) B(h/2) C(h) B(h/2) A(h/2), tao4 its triple jump. It is symplectic, symmetric and reversible as a map
+// of (q, x, p, y), but not as a map of (q, p), which is why the copy is part of the state of a run. The copy starts as
+// x = q, y = p. The method nearly conserves the energy of the coupled copies, and H(q, p) as long as they stay
+// together, which requires an omega much larger than the frequencies of the motion. Errors grow with omega h^r, so
+// omega h must be small.
 #pragma once
 
 #include <string>

@@ -8,14 +8,16 @@
 //     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the smallest rho_j, j = p - 1, p, of both blocks,
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
 // For the cheapest order, p = ceil(1 - ln(tolerance)/2), this is rho/e^2 times their safety factor. The rest of h is
-// divided into equal parts that are not longer. No sub-step depends on the one before, so there is no memory. The last
-// two coefficients of both blocks can vanish by a symmetry of the motion: the quartic oscillator x' = p, p' = -2 x^3
-// from x = 0 has only q-coefficients 1, 5, 9, ... and p-coefficients 0, 4, 8, .... Therefore the rho_j of all
-// coefficients of the second half bound the sub-step, too, with three times the factor (at most 0.9). Sizes are kept as
-// logarithms, because with many digits they leave the range of double: with 100 digits, powers of a unit 1024 times
-// shorter than the radius fall below 10^-308. A coefficient below the range of the arithmetic counts as its smallest
-// number, which can only shorten the sub-step. Before a sub-step is added, its last terms are compared with the first
-// ones in the working arithmetic; if the series does not converge, the step fails.
+// divided into equal parts that are not longer. No sub-step depends on the one before, so there is no memory.
+//
+// The last two coefficients of both blocks can vanish by a symmetry of the motion: the quartic oscillator x' = p, p' =
+// -2 x^3 from x = 0 has only q-coefficients 1, 5, 9, ... and p-coefficients 0, 4, 8, .... Therefore the rho_j of all
+// coefficients of the second half bound the sub-step, too, with three times the factor (at most 0.9).
+//
+// Sizes are kept as logarithms, because with many digits they leave the range of double: with 100 digits, powers of a
+// unit 1024 times shorter than the radius fall below 10^-308. A coefficient below the range of the arithmetic counts as
+// its smallest number, which can only shorten the sub-step. Before a sub-step is added, its last terms are compared
+// with the first ones in the working arithmetic; if the series does not converge, the step fails.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 // Poincare sections: the states in which x, a coordinate or an expression, passes a value. Between two steps with
 // opposite signs of x - value, x(Psi_tau(z_n)) = value is solved for tau to rounding, with partial steps of the method,
-// so that a point of the section lies on the same energy level as the steps. Steps that are long compared with the
-// motion, as those with adaptive sub-steps can be, are divided into pieces by halving, until five points of each lie on
-// a cubic. All crossings between these points are found, too.
+// so that a point of the section lies on the same energy level as the steps.
+//
+// Steps that are long compared with the motion, as those with adaptive sub-steps can be, are divided into pieces by
+// halving, until five points of each lie on a cubic. All crossings between these points are found, too.
 #pragma once
 
 #include <array>

@@ -8,9 +8,8 @@
 //   symmetry  odd: f(-x) = -f(x); even: f(-x) = f(x); neither
 //   rule      the derivative: times(slope) multiplies that of x by the slope, over(slope) divides by it. It is written
 //             with x, y = f(x) and one, and may call other functions
-// series known: detail/numerics/taylor_series.hpp and detail/core/tape.hpp compute its Taylor coefficients; unknown:
-// they do not, and
-//             methods that need them refuse it
+//   series    known: detail/numerics/taylor_series.hpp and detail/core/tape.hpp compute its Taylor coefficients;
+//             unknown: they do not, and methods that need them refuse it
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,16 @@
 // Records the arithmetic of a problem's member templates. A call with S = Trace<R> records a straight-line program,
 // from which the Taylor coefficients of a motion are computed (detail/numerics/taylor_series.hpp).
-// [GriewankWalther2008, ch. 2, 13] Constants are folded, common subexpressions are recorded once, and operations that
-// no output needs are dropped: dual numbers over Trace, which differentiate a Hamiltonian without a gradient, produce
-// many zeros and ones. A straight-line program cannot branch on the state: < and abs throw. A test for equality (a case
-// of measure zero, such as p_phi = 0) takes the branch of the recorded state and adds a guard, which detects a later
-// state that would take the other branch. An exact recording (Folding::exact) gives the same bits as numbers of type R,
-// including the signs of zeros: no simplification changes a bit for any input, pow is the library's function, and every
-// comparison adds a guard. Recorded steps are made this way (src/engine/recorded_step.hpp).
+// [GriewankWalther2008, ch. 2, 13]
+//
+// Constants are folded, common subexpressions are recorded once, and operations that no output needs are dropped: dual
+// numbers over Trace, which differentiate a Hamiltonian without a gradient, produce many zeros and ones. A
+// straight-line program cannot branch on the state: < and abs throw. A test for equality (a case of measure zero, such
+// as p_phi = 0) takes the branch of the recorded state and adds a guard, which detects a later state that would take
+// the other branch.
+//
+// An exact recording (Folding::exact) gives the same bits as numbers of type R, including the signs of zeros: no
+// simplification changes a bit for any input, pow is the library's function, and every comparison adds a guard.
+// Recorded steps are made this way (src/engine/recorded_step.hpp).
 #pragma once
 
 #include <algorithm>

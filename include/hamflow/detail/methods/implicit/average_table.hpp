@@ -8,8 +8,9 @@
 // a_ij/b_j,
 //     W = diag(b),   N_ij = mu_ij - 1/2,   e = (1, .. 1).
 // b_i a_ij + b_j a_ji = b_i b_j means mu_ij + mu_ji = 1, so N is antisymmetric. Only the upper half is computed and the
-// lower half copied, so that the map is exactly symplectic with rounded coefficients.   [AntonanaMakazagaMurua2017] If
-// H = p^T M^-1 p/2 + V(q), the part of u in q follows from the part in p, with exact quadrature:
+// lower half copied, so that the map is exactly symplectic with rounded coefficients.   [AntonanaMakazagaMurua2017]
+//
+// If H = p^T M^-1 p/2 + V(q), the part of u in q follows from the part in p, with exact quadrature:
 //     u^q_j = h beta_j M^-1 (omega_j (p0 + p1)/2 + sum_i A_ji u^p_i),   A antisymmetric;
 // elements: beta = 1, omega = e, A_(j,j-1) = xi_j; stages: beta = b, omega = 1, A = N.
 #pragma once

@@ -5,9 +5,10 @@
 //     r(z0, U) = 0,      z1 = z0 + E(U),
 // U is measured from the last state: U = 0 means z1 = z0. Stages of a collocation, coefficients of a polynomial, or z1
 // - z0 itself are such unknowns. Newton may solve for fewer variables X if the others follow from them (the momenta of
-// a mechanical system, a cyclic coordinate); without elimination X is U. An object of the class `E` exists for each
-// step. It keeps references to objects that outlive the step: its `Setup` (options, coefficients, mass matrix), the
-// problem and z0:
+// a mechanical system, a cyclic coordinate); without elimination X is U.
+//
+// An object of the class `E` exists for each step. It keeps references to objects that outlive the step: its `Setup`
+// (options, coefficients, mass matrix), the problem and z0:
 //
 //     E(const Setup&, const P&, const Real& h, const V& q0, const V& p0, Effort&)      V = Vector<Real, n>
 //     static constexpr std::size_t n           degrees of freedom, or `dynamic`

@@ -1,11 +1,15 @@
-// Newton's iteration for the equations of a step, and its initial guesses. The first guess is extrapolated from the
-// last steps; without memory it is the explicit predictor. If it fails, the predictor, the last state (as in the
-// programs of the first thesis) and a damped Newton iteration are tried in turn, each with max_iterations corrections.
-// If all fail, ImplicitMethod continues the solution of a short step to the whole step. If h is longer than the period
-// of the fastest motion, a polynomial through the last steps does not predict the next one. Newton may still converge
-// from there, for example to a root on the other side of a singularity. Therefore, if the distance of the first guess
-// from the solution is larger than the whole step, it counts as a guess failure: steps then start from the last state,
-// until three extrapolations in a row would have been closer. With good guesses this costs no evaluation.
+// Newton's iteration for the equations of a step, and its initial guesses.
+//
+// The first guess is extrapolated from the last steps; without memory it is the explicit predictor. If it fails, the
+// predictor, the last state (as in the programs of the first thesis) and a damped Newton iteration are tried in turn,
+// each with max_iterations corrections. If all fail, ImplicitMethod continues the solution of a short step to the whole
+// step.
+//
+// If h is longer than the period of the fastest motion, a polynomial through the last steps does not predict the next
+// one. Newton may still converge from there, for example to a root on the other side of a singularity. Therefore, if
+// the distance of the first guess from the solution is larger than the whole step, it counts as a guess failure: steps
+// then start from the last state, until three extrapolations in a row would have been closer. With good guesses this
+// costs no evaluation.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/equations.hpp"

@@ -5,14 +5,16 @@
 // u' has degree 2 k - 1, so that u1 - u0 = h sum b_l u'_l, and with the divided difference phi[u0, u1] and
 // g_l = phi[u0, u1] - phi'_l, (x, y) = sum b_l x_l y_l,
 //     lambda u' = u' (u', g)/(u', u'),
-// the projection of g on u', without cancellation of energies; for k = 1 it is g itself. It has no limit at u' = 0,
-// that is, at rest and on a circle: there it depends on the direction of u', and steps near such states have no
-// solution. u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work for any chi. chi = 1 gives g itself,
-// so that the factor is phi[u0, u1] and a circle remains a circle. With rho = |u'|/(the change of u' if g is added to
-// the factor), chi is 1 for rho < 2, 0 for rho > 8, and a polynomial with two continuous derivatives in between. g is
-// replaced by its value for u' = 0, phi'[u0, u1] s_l, where s_l = u_l - u0 - h sum_j a_lj u'_j is the collocation error
-// in u, of order k + 1 in h. For rho > 8 the step is exactly the definition: on an ellipse with e = 0.1 and 63 steps
-// per period rho is at least 15 000, with e = 0.6 and 21 steps at least 12.
+// the projection of g on u', without cancellation of energies; for k = 1 it is g itself.
+//
+// It has no limit at u' = 0, that is, at rest and on a circle: there it depends on the direction of u', and steps near
+// such states have no solution. u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work for any chi. chi
+// = 1 gives g itself, so that the factor is phi[u0, u1] and a circle remains a circle. With
+//     rho = |u'|/(the change of u' if g is added to the factor),
+// chi is 1 for rho < 2, 0 for rho > 8, and a polynomial with two continuous
+// derivatives in between. g is replaced by its value for u' = 0, phi'[u0, u1] s_l, where s_l = u_l - u0 - h sum_j a_lj
+// u'_j is the collocation error in u, of order k + 1 in h. For rho > 8 the step is exactly the definition: on an
+// ellipse with e = 0.1 and 63 steps per period rho is at least 15 000, with e = 0.6 and 21 steps at least 12.
 #pragma once
 
 #include <algorithm>
