@@ -23,9 +23,9 @@ struct Local {
 };
 
 /// Gives names their meaning: syntax to graph. Sums are written out, let shares a node.
-class Meaning {
+class NameResolver {
  public:
-  Meaning(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols, std::set<std::string>* whole)
+  NameResolver(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols, std::set<std::string>* whole)
       : graph_(graph), syntax_(syntax), symbols_(symbols), whole_used_(whole) {
     for (std::size_t i = 0; i < symbols.names.size(); ++i) numbers_.emplace(symbols.names[i], static_cast<int>(i));
   }
@@ -312,7 +312,7 @@ int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols
                                            .operations = FormulaLimits::terms,
                                            .names = symbols.names,
                                            .what = symbols.what});
-  return Meaning(graph, syntax, symbols, whole).read();
+  return NameResolver(graph, syntax, symbols, whole).read();
 }
 
 }  // namespace formula

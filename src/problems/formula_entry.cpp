@@ -21,7 +21,7 @@ namespace hamflow {
 namespace {
 
 template <class R>
-using FormulaFace = Erased<R, Capability::smooth>;
+using AnyFormula = Erased<R, Capability::smooth>;
 
 template <class R>
 ErasedFunctions<R> functions_of(const EntryModel& model, const Parameters<R>& parameters,
@@ -75,7 +75,7 @@ StateOf<R> orbit_of(const TypedField& field, const Texts& texts, const StartSpec
 
 /// The start, as in ProblemStart.
 template <class R>
-StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Request& request) {
+StateOf<R> start_of(const Typed& typed, const AnyFormula<R>& problem, const Request& request) {
   const EntryModel& model = typed.model;
   const StartSpec& spec = request.start;
   if (spec.geometric() && typed.field) {
@@ -100,7 +100,7 @@ StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Req
       return out;
     };
     StateOf<R> s{read(spec.q), read(spec.v.empty() ? spec.p : spec.v)};
-    if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p, model.size());
+    if (!spec.v.empty()) s.p = ProblemStart<AnyFormula>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), request));
@@ -247,7 +247,7 @@ MethodSpec method_taken(const Request& request) {
 
 ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field) {
   const Typed typed{model, field};
-  const auto face = [model](const Texts& parameters) {
+  const auto problem_with = [model](const Texts& parameters) {
     return functions_of<double>(model, parameters).as<Capability::smooth>();
   };
   ProblemEntry e;
@@ -295,19 +295,22 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
     return conditions.all();
   };
   const std::size_t degrees = model.degrees();
-  e.energy = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-    return face(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
+  e.energy = [problem_with, degrees](const Texts& parameters, const std::vector<double>& q,
+                                     const std::vector<double>& p) {
+    return problem_with(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
   };
-  e.gradient = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+  e.gradient = [problem_with, degrees](const Texts& parameters, const std::vector<double>& q,
+                                       const std::vector<double>& p) {
     Vector<double, dynamic> dq(degrees);
     Vector<double, dynamic> dp(degrees);
-    face(parameters).gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
+    problem_with(parameters).gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
     return EnergyGradient{{dq.begin(), dq.begin() + q.size()}, {dp.begin(), dp.begin() + q.size()}};
   };
-  e.regular = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+  e.regular = [problem_with, degrees](const Texts& parameters, const std::vector<double>& q,
+                                      const std::vector<double>& p) {
     Vector<double, dynamic> dq(degrees);
     Vector<double, dynamic> dp(degrees);
-    const auto problem = face(parameters);
+    const auto problem = problem_with(parameters);
     problem.gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
     double sum = abs(problem.energy(vector_of(q, degrees), vector_of(p, degrees)));
     for (std::size_t i = 0; i < dq.size(); ++i) sum += abs(dq[i]) + abs(dp[i]);
@@ -316,8 +319,8 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.invariant_sizes = [model](const Texts&, std::size_t) {
     return std::vector<std::size_t>(model.made()->invariants().size(), 1);
   };
-  e.start = [typed, face](const Request& request) {
-    return frame_of(start_of<double>(typed, face(request.parameters), request), typed.model.size());
+  e.start = [typed, problem_with](const Request& request) {
+    return frame_of(start_of<double>(typed, problem_with(request.parameters), request), typed.model.size());
   };
   if (model.structure().constraints > 0) {
     const auto bound = [model](const Texts& parameters) {

@@ -37,8 +37,8 @@ inline constexpr int linear_iterations = 100;
 struct Averages {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
-  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic, Capability::cyclic,
-                                         Capability::smooth};
+  static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic,
+                                                   Capability::cyclic, Capability::smooth};
   template <class P>
   static constexpr bool accepts = Differentiable<P>;
   AverageOptions options;

@@ -98,7 +98,7 @@ struct Boris {
       true;  // the velocity is a difference of p and A(q), whose rounding errors would accumulate
   static constexpr bool bijective = false;
   static constexpr bool typed = true;
-  static constexpr Capability faces[] = {Capability::charge};
+  static constexpr Capability capability_sets[] = {Capability::charge};
   template <class P>
   static constexpr bool accepts = ChargeInField<P>;
   template <class P, class A>

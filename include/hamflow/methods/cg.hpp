@@ -44,8 +44,8 @@ struct Cg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
   static constexpr bool typed = true;
-  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic, Capability::cyclic,
-                                         Capability::smooth};
+  static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic,
+                                                   Capability::cyclic, Capability::smooth};
   template <class P>
   static constexpr bool accepts = Smooth<P>;
   CgOptions options{};

@@ -355,7 +355,8 @@ class RadialCollocation : public TargetEquations<R> {
 struct Eg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
-  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic | Capability::radial};
+  static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic |
+                                                   Capability::radial};
   template <class P>
   static constexpr bool accepts = RadialForces<P>;
   EgOptions options{};

@@ -161,8 +161,8 @@ class RattleStep {
 struct Rattle {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
-  static constexpr Capability faces[] = {Capability::constrained | Capability::separable |
-                                         Capability::quadratic_kinetic};
+  static constexpr Capability capability_sets[] = {Capability::constrained | Capability::separable |
+                                                   Capability::quadratic_kinetic};
   template <class P>
   static constexpr bool accepts = Constrained<P>&& QuadraticKinetic<P>;
   RattleOptions options{};

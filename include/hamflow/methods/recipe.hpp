@@ -10,7 +10,8 @@
 // It may declare `compensated` (always adds increments with compensation; the default for implicit methods), `typed`
 // (compiled in double for every problem of the catalogue, for methods whose own work dominates a step; by default it
 // runs behind virtual calls), `recorded` (a step in double is a straight-line program, which is recorded and compiled),
-// and `faces`, the sets of capabilities for which it is compiled, in order of preference (src/steps/visit_erased.hpp).
+// and `capability_sets`, the sets of capabilities for which it is compiled, in order of preference
+// (src/steps/visit_erased.hpp).
 #pragma once
 
 #include <concepts>

@@ -41,7 +41,7 @@ class PairSums {
   using Real = typename A::Real;
   using Stored = typename A::Stored;
 
-  void use_threads(std::size_t count) { crew_ = count > 1 ? std::make_shared<Crew>(count) : nullptr; }
+  void use_threads(std::size_t count) { group_ = count > 1 ? std::make_shared<ThreadGroup>(count) : nullptr; }
 
   /// kick <- factor F(q), rounded pair by pair.
   /// @return false if a contribution is too large; `kick` is then undefined
@@ -116,8 +116,8 @@ class PairSums {
     bool lost = false;
     std::vector<Stored> sums;
   };
-  struct Crew {
-    explicit Crew(std::size_t count) : team(count), shares(count) {}
+  struct ThreadGroup {
+    explicit ThreadGroup(std::size_t count) : team(count), shares(count) {}
     std::mutex busy;
     std::vector<std::size_t> rows;  // where each block begins, and the end
     std::uint64_t version = 0;      // of the lists that the blocks divide
@@ -147,7 +147,7 @@ class PairSums {
   /// @param visit (near, first, last, sink): passes the contributions of these rows to the sink
   template <class Visit>
   bool sum(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
-    if (crew_) return sum_by_many(problem, z, kick, visit);
+    if (group_) return sum_by_many(problem, z, kick, visit);
     for (Stored& k : kick) k = 0;
     Sink sink{z.arithmetic, limit(problem), kick.begin()};
     visit(pairs_at(problem, z, nullptr), 0, problem.pair_rows(), sink);
@@ -155,32 +155,32 @@ class PairSums {
   }
   template <class Visit>
   bool sum_by_many(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
-    Crew& crew = *crew_;
-    const std::lock_guard turn(crew.busy);
-    const auto near = pairs_at(problem, z, &crew.team);
-    if (crew.shares[0].sums.size() != kick.size()) {
-      crew.rows.clear();
-      for (Share& share : crew.shares) share = {0, false, std::vector<Stored>(kick.size())};
+    ThreadGroup& group = *group_;
+    const std::lock_guard turn(group.busy);
+    const auto near = pairs_at(problem, z, &group.team);
+    if (group.shares[0].sums.size() != kick.size()) {
+      group.rows.clear();
+      for (Share& share : group.shares) share = {0, false, std::vector<Stored>(kick.size())};
     }
-    if (crew.rows.empty() || crew.rows.back() != problem.pair_rows() || crew.version != near.version()) {
-      divide(near, problem.pair_rows(), crew);
+    if (group.rows.empty() || group.rows.back() != problem.pair_rows() || group.version != near.version()) {
+      divide(near, problem.pair_rows(), group);
     }
     const Real most = limit(problem);
     auto work = [&](std::size_t worker, std::uint64_t call, std::size_t block) {
-      Share& share = crew.shares[worker];
+      Share& share = group.shares[worker];
       if (share.call != call) {
         share.call = call;
         share.lost = false;
         std::fill(share.sums.begin(), share.sums.end(), Stored{0});
       }
       Sink sink{z.arithmetic, most, share.sums.data()};
-      visit(near, crew.rows[block], crew.rows[block + 1], sink);
+      visit(near, group.rows[block], group.rows[block + 1], sink);
       share.lost = share.lost || sink.lost;
     };
-    const std::uint64_t call = crew.team.share(crew.rows.size() - 1, work);
+    const std::uint64_t call = group.team.share(group.rows.size() - 1, work);
     for (Stored& k : kick) k = 0;
     bool lost = false;
-    for (const Share& share : crew.shares) {
+    for (const Share& share : group.shares) {
       if (share.call != call) continue;
       lost = lost || share.lost;
       for (std::size_t i = 0; i < kick.size(); ++i) kick[i] += share.sums[i];
@@ -191,25 +191,25 @@ class PairSums {
   /// Divides the rows into blocks with about equal numbers of pairs, several for each thread, so that a late thread
   /// does not delay the others.
   template <class Near>
-  static void divide(const Near& near, std::size_t rows, Crew& crew) {
+  static void divide(const Near& near, std::size_t rows, ThreadGroup& group) {
     constexpr std::size_t blocks_each = 4;
     std::size_t pairs = 0;
     for (std::size_t row = 0; row < rows; ++row) pairs += near[row].size();
-    const std::size_t each = pairs / (blocks_each * crew.team.size()) + 1;
-    crew.version = near.version();
-    crew.rows.reserve(blocks_each * crew.team.size() + 2);
-    crew.rows.assign(1, 0);
+    const std::size_t each = pairs / (blocks_each * group.team.size()) + 1;
+    group.version = near.version();
+    group.rows.reserve(blocks_each * group.team.size() + 2);
+    group.rows.assign(1, 0);
     std::size_t held = 0;
     for (std::size_t row = 0; row < rows; ++row) {
       held += near[row].size();
       if (held >= each || row + 1 == rows) {
-        crew.rows.push_back(row + 1);
+        group.rows.push_back(row + 1);
         held = 0;
       }
     }
   }
 
-  std::shared_ptr<Crew> crew_;
+  std::shared_ptr<ThreadGroup> group_;
 };
 
 namespace detail {
