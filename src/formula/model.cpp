@@ -187,7 +187,7 @@ Model::Model(const FormulaTexts& texts) {
   const bool split = !texts.kinetic.empty() && !texts.potential.empty();
   if (whole && (!texts.kinetic.empty() || !texts.potential.empty())) {
     refuse(FormulaKeys::hamiltonian,
-           "found it beside " + std::string(texts.kinetic.empty() ? FormulaKeys::potential : FormulaKeys::kinetic) +
+           "found together with " + std::string(texts.kinetic.empty() ? FormulaKeys::potential : FormulaKeys::kinetic) +
                "; allowed hamiltonian, or kinetic and potential");
   }
   if (!whole && !split) {
@@ -229,7 +229,7 @@ Model::Model(const FormulaTexts& texts) {
     const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
       roots.push_back(read_into(graph, texts.constraints[k], symbols_, &needed));
-    } catch (const Error&) {  // said with the names that are allowed in it
+    } catch (const Error&) {  // parsed again to report the names that are allowed here
       FormulaSymbols own = symbols_;
       own.what = "coordinates and parameters";
       own.names.erase(own.names.begin() + static_cast<std::ptrdiff_t>(n),
@@ -262,7 +262,7 @@ Model::Model(const FormulaTexts& texts) {
         for (std::size_t i = 0; i < n; ++i) {
           if (!d.forms.depends(form, static_cast<int>(first + i))) continue;
           refuse(own, "found " + symbols_.names[first + i] + " in it; allowed " + of +
-                          ", parameters and t; else hamiltonian");
+                          ", parameters and t; otherwise give hamiltonian");
         }
       };
       foreign(d.t, 0, FormulaKeys::kinetic, "momenta");
@@ -329,8 +329,8 @@ void Model::derive_constraints(const std::vector<int>& values) {
   const std::size_t n = size();
   if (!structure_.quadratic_kinetic) {
     throw FormulaError(FormulaKeys::constraints,
-                       "found constraints beside an H that is not p^T M^-1 p/2 + V(q) with constant M; allowed such "
-                       "an H, or none");
+                       "found constraints with an H that is not p^T M^-1 p/2 + V(q) with constant M; allowed such an "
+                       "H, or no constraints");
   }
   std::vector<Derivation::Output> of_gradients;
   std::vector<Derivation::Output> curvatures;
@@ -355,7 +355,9 @@ void Model::derive_constraints(const std::vector<int>& values) {
         }
       }
       for (std::size_t i = n; i < degrees(); ++i) of_gradients.push_back({d.forms.sum({})});
-      if (!any) throw FormulaError(key, "found no coordinate in it; allowed a function of coordinates that is to be 0");
+      if (!any)
+        throw FormulaError(key,
+                           "found no coordinate in it; allowed a function of coordinates that the motion keeps at 0");
       curvatures.push_back({d.forms.sum(curvature)});
     } catch (const FormulaError&) {
       throw;

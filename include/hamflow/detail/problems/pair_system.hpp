@@ -1,7 +1,7 @@
 // N particles with forces between all pairs, in the plane or in space: H = sum |p_i|^2/(2 m_i) + sum_{i<j} V_ij(r_ij).
-// q = [x1, y1(, z1), x2, ...], particle by particle. What a pair gives is the model's: gravity.hpp, gas_system.hpp. The
-// force of a pair is computed once and given to both with opposite signs, so that the total momentum is kept to the
-// last rounding of the sums.
+// q = [x1, y1(, z1), x2, ...], particle by particle. The model computes the contribution of a pair: gravity.hpp,
+// gas_system.hpp. The force of a pair is computed once and added to both particles with opposite signs, so that the
+// total momentum is conserved to the rounding of the sums.
 #pragma once
 
 #include <array>
@@ -103,8 +103,8 @@ class PairSystem {
   }
 
   // As PairwiseForces, for the lattice: each contribution is rounded, and integers are summed. Row i holds the pairs i,
-  // j > i. Every operation is symmetric in i and j or changes its sign, so that numbering the particles otherwise
-  // changes no bit of a contribution.
+  // j > i. Every operation is symmetric or antisymmetric in i and j, so that another numbering of the particles does
+  // not change a bit of a contribution.
   std::size_t pair_rows() const { return particles(); }
   std::size_t pairs_in_row(std::size_t i) const { return particles() - 1 - i; }
   template <class F, class Difference, class Sink>
@@ -112,7 +112,7 @@ class PairSystem {
                   Sink& sink) const {
     pair_kicks(factor, difference, first, last, sink, AllPairs{particles()});
   }
-  /// The same without the pairs that `near` leaves out.
+  /// The same without the pairs that `near` omits.
   template <class F, class Difference, class Sink, class Near>
   void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last, Sink& sink,
                   const Near& near) const {
@@ -129,7 +129,7 @@ class PairSystem {
     model.near;
   }
   { return model_->near ? model_->near->at(position, team) : NearPairs::Turn(particles()); }
-  /// The same of -third V''(q) v besides.
+  /// The same with -third V''(q) v added.
   template <class F, class Difference, class Sink>
   void pair_gradient_kicks(const F& factor, const F& third, const Vector<F, dynamic>& v, const Difference& difference,
                            std::size_t first, std::size_t last, Sink& sink) const requires
@@ -173,8 +173,8 @@ class PairSystem {
     return model_->radial_law(u);
   }
 
-  /// How many numbers angular momentum, linear momentum and centre of mass have, as far as the model leaves them. In
-  /// place: they are asked for at every step.
+  /// The numbers of components of angular momentum, linear momentum and centre of mass, as far as the model conserves
+  /// them. Stored in place, because they are needed at every step.
   struct Sizes {
     std::array<std::size_t, 3> entry{};
     std::size_t count = 0;
