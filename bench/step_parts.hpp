@@ -48,7 +48,7 @@ class Observed : public E {
 
   using E::E;
   /// The road of most steps (plane_road.hpp) shows no last point; by Newton the bits are the same.
-  void straight(const auto&, int) const = delete;
+  void fast_path(const auto&, int) const = delete;
   auto taken(typename E::Variables& x, const typename E::Point& at) const { return E::taken(x, at); }
   auto taken(typename E::Variables& x, const typename E::Point& at, const typename E::Variables& correction) const {
     last = {x, at, {}};
@@ -86,7 +86,7 @@ class NaturalParts {
     const V& d = last.taken.q;
     const V& e = last.taken.p;
     const V q0 = from.positions();
-    const double unit = h_ / detail::golden<double>();
+    const double unit = h_ / detail::golden_ratio<double>();
     V low_p{};
     for (std::size_t i = 0; i < n; ++i) low_p[i] = from.p[i].low;
     Parts parts{};
@@ -135,7 +135,7 @@ class NaturalParts {
       force_and_hessian(problem_, q, f, second);
       L f_long{};
       force(precise_, to_long(q), f_long);
-      const double product = detail::golden<double>() * rules_.in_use.b[l];
+      const double product = detail::golden_ratio<double>() * rules_.in_use.b[l];
       const Long weight = Long(unit) * product / h_;
       const double wrong_weight = static_cast<double>(static_cast<Long>(rules_.exact.b[l]) - weight);
       const double wrong_offset = static_cast<double>(static_cast<Long>(rules_.exact.offset[l]) - offset);
@@ -204,7 +204,7 @@ class GeneralParts {
       low[i] = from.q[i].low;
       low[n + i] = from.p[i].low;
     }
-    const double unit = h_ / detail::golden<double>();
+    const double unit = h_ / detail::golden_ratio<double>();
     const Z& x = last.x;
 
     Matrix<Long, m> k{};
@@ -232,7 +232,7 @@ class GeneralParts {
       slopes(q, p, slope);
       Vector<Long, m> f_long{};
       field(precise_, to_long(q), to_long(p), f_long);
-      const double product = detail::golden<double>() * rules_.in_use.b[l];
+      const double product = detail::golden_ratio<double>() * rules_.in_use.b[l];
       const Long weight = Long(unit) * product;
       const double wrong_weight = static_cast<double>(Long(h_) * static_cast<Long>(rules_.exact.b[l]) - weight);
       const double wrong_offset = static_cast<double>(static_cast<Long>(rules_.exact.offset[l]) - offset);

@@ -59,7 +59,7 @@ struct Scratch {
 using SumRows = std::uint64_t (*)(const Rows&, std::size_t first, std::size_t last, const Candidates&, const Scratch&);
 
 /// Some particles, in the order of their numbers, with room for eight more.
-struct Crowd {
+struct CandidateParticles {
   const double* x[3];
   const std::uint32_t* slots;
   std::size_t count;
@@ -68,7 +68,7 @@ struct Crowd {
   double radius_squared;
 };
 /// The slots of all but one within a distance of that one. @param found room for count + 8 @return their number
-using FindNear = std::size_t (*)(const Crowd&, std::size_t one, std::uint32_t* found);
+using FindNear = std::size_t (*)(const CandidateParticles&, std::size_t one, std::uint32_t* found);
 
 struct Kernels {
   SumRows all[2][2][2];        // [law][space - 2][with energy]

@@ -364,22 +364,22 @@ std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, 
 }
 
 template <int Space, bool Images>
-std::size_t find_near(const Crowd& crowd, std::size_t one, std::uint32_t* found) {
+std::size_t find_near(const CandidateParticles& candidates, std::size_t one, std::uint32_t* found) {
   std::uint32_t* to = found;
-  const Eight limit = all(crowd.radius_squared);
+  const Eight limit = all(candidates.radius_squared);
   Eight centre[Space];
-  for (int k = 0; k < Space; ++k) centre[k] = all(crowd.x[k][one]);
-  for (std::size_t j = 0; j < crowd.count; j += most_lanes) {
+  for (int k = 0; k < Space; ++k) centre[k] = all(candidates.x[k][one]);
+  for (std::size_t j = 0; j < candidates.count; j += most_lanes) {
     Eight u = all(0);
     for (int k = 0; k < Space; ++k) {
-      Eight d = centre[k] - load(crowd.x[k] + j);
-      if constexpr (Images) d = d - nearest_whole(d * all(crowd.inverse_edge[k])) * all(crowd.edge[k]);
+      Eight d = centre[k] - load(candidates.x[k] + j);
+      if constexpr (Images) d = d - nearest_whole(d * all(candidates.inverse_edge[k])) * all(candidates.edge[k]);
       u = u + d * d;
     }
     unsigned bits = below(u, limit);
-    if (crowd.count - j < most_lanes) bits &= (1u << (crowd.count - j)) - 1;
+    if (candidates.count - j < most_lanes) bits &= (1u << (candidates.count - j)) - 1;
     if (one - j < most_lanes) bits &= ~(1u << (one - j));
-    append(bits, crowd.slots + j, to);
+    append(bits, candidates.slots + j, to);
     to += __builtin_popcount(bits);
   }
   return static_cast<std::size_t>(to - found);

@@ -38,10 +38,10 @@ void Neighbours::prepare(const Box& box, std::size_t particles, std::size_t work
   box_ = box;
   particles_ = particles;
   reach_ = (box.radius + box.skin) * (1 + margin);
-  desks_.resize(workers);
-  for (Desk& desk : desks_) {
+  scratch_.resize(workers);
+  for (ThreadScratch& scratch : scratch_) {
     std::size_t words = particles;
-    for (auto& level : desk.marks) {
+    for (auto& level : scratch.marks) {
       words = (words + 63) / 64;
       level.assign(words, 0);
     }
@@ -165,8 +165,8 @@ std::size_t Neighbours::cells_beside(std::size_t cell, std::size_t* beside) cons
 
 /// The particles in and around a cell in the order of their numbers, by marks that are read in that order; where cells
 /// are small beside the box, those of their images that are nearest to the cell.
-void Neighbours::gather(std::size_t cell, Desk& desk) const {
-  auto& [marks, words] = desk.marks;
+void Neighbours::gather(std::size_t cell, ThreadScratch& scratch) const {
+  auto& [marks, words] = scratch.marks;
   std::size_t beside[27];
   const std::size_t cells = cells_beside(cell, beside);
   std::size_t lowest = words.size();
@@ -192,7 +192,7 @@ void Neighbours::gather(std::size_t cell, Desk& desk) const {
     words[word] |= in_word;
     highest = std::max(highest, word);
   }
-  std::uint32_t* const slots = desk.slots.data();
+  std::uint32_t* const slots = scratch.slots.data();
   const std::size_t first_own = cell_begins_[cell];
   const std::size_t all_own = cell_begins_[cell + 1] - first_own;
   std::size_t own = 0;
@@ -203,19 +203,19 @@ void Neighbours::gather(std::size_t cell, Desk& desk) const {
       for (std::uint64_t in_b = std::exchange(marks[b], 0); in_b != 0; in_b &= in_b - 1) {
         const std::uint32_t slot = slot_of_[64 * b + static_cast<std::size_t>(std::countr_zero(in_b))];
         slots[found] = slot;
-        desk.own[own] = static_cast<std::uint32_t>(found);
+        scratch.own[own] = static_cast<std::uint32_t>(found);
         own += slot - first_own < all_own ? 1 : 0;
         ++found;
       }
     }
   }
-  desk.count = found;
+  scratch.count = found;
   std::size_t rest = cell;
   for (std::size_t k = 0; k < box_.space; ++k) {
     const std::size_t at = rest % cells_[k];
     rest /= cells_[k];
     const double* const from = x_[k].data();
-    double* const to = desk.x[k].data();
+    double* const to = scratch.x[k].data();
     const bool inside = at > 0 && at + 1 < cells_[k];
     if (!by_shift_ || box_.edges[k] == 0 || inside) {
       for (std::size_t i = 0; i < found; ++i) to[i] = from[slots[i]];
@@ -231,9 +231,9 @@ void Neighbours::gather(std::size_t cell, Desk& desk) const {
 }
 
 /// The rows of a block follow each other like the slots: in a cell both are in the order of numbers. They are written
-/// at the desk, so that a block gets its memory at once and leaves none behind that it has outgrown.
-void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const {
-  std::vector<std::uint32_t>& rows = desk.rows;
+/// at the scratch, so that a block gets its memory at once and leaves none behind that it has outgrown.
+void Neighbours::find_rows(Block& block, ThreadScratch& scratch, const FindNear* near) const {
+  std::vector<std::uint32_t>& rows = scratch.rows;
   std::size_t used = 0;
   if (!made_) {
     make_room(block.last - block.first, block.begins);
@@ -244,23 +244,23 @@ void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const
   for (std::size_t cell = block.first_cell; cell < block.last_cell; ++cell) {
     const std::size_t own = cell_begins_[cell + 1] - cell_begins_[cell];
     if (own == 0) continue;
-    gather(cell, desk);
-    Crowd crowd{};
-    crowd.slots = desk.slots.data();
-    crowd.count = desk.count;
-    crowd.radius_squared = reach_ * reach_;
+    gather(cell, scratch);
+    CandidateParticles candidates{};
+    candidates.slots = scratch.slots.data();
+    candidates.count = scratch.count;
+    candidates.radius_squared = reach_ * reach_;
     for (std::size_t k = 0; k < box_.space; ++k) {
-      crowd.x[k] = desk.x[k].data();
-      crowd.edge[k] = box_.edges[k];
-      crowd.inverse_edge[k] = box_.edges[k] == 0 ? 0 : 1 / box_.edges[k];
+      candidates.x[k] = scratch.x[k].data();
+      candidates.edge[k] = box_.edges[k];
+      candidates.inverse_edge[k] = box_.edges[k] == 0 ? 0 : 1 / box_.edges[k];
     }
     for (std::size_t i = 0; i < own; ++i) {
-      if (rows.size() < used + desk.count + 16) rows.resize(2 * (used + desk.count + 16));
-      const std::size_t count = near[by_shift_ ? 0 : 1](crowd, desk.own[i], rows.data() + used);
+      if (rows.size() < used + scratch.count + 16) rows.resize(2 * (used + scratch.count + 16));
+      const std::size_t count = near[by_shift_ ? 0 : 1](candidates, scratch.own[i], rows.data() + used);
       block.begins.push_back(static_cast<std::uint32_t>(used));
       block.counts.push_back(static_cast<std::uint32_t>(count));
       used += count;
-      while (used % 8 != 0) rows[used++] = desk.slots[desk.own[i]];
+      while (used % 8 != 0) rows[used++] = scratch.slots[scratch.own[i]];
     }
   }
   if (!made_) make_room(used, block.slots);
@@ -268,28 +268,28 @@ void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const
 }
 
 /// For what stands in and around any cell.
-void Neighbours::clear_desks() {
+void Neighbours::clear_scratch() {
   std::size_t most = 0;
   for (std::size_t c = 0; c + 1 < cell_begins_.size(); ++c) {
     most = std::max(most, cell_begins_[c + 1] - cell_begins_[c]);
   }
   const std::size_t needed = std::min(particles_, 27 * most) + 8;
-  for (Desk& desk : desks_) {
-    if (desk.slots.size() >= needed) continue;
+  for (ThreadScratch& scratch : scratch_) {
+    if (scratch.slots.size() >= needed) continue;
     const std::size_t room = needed + needed / 4;
-    desk.slots.resize(room);
-    desk.own.resize(room);
-    for (std::size_t k = 0; k < box_.space; ++k) desk.x[k].resize(room);
+    scratch.slots.resize(room);
+    scratch.own.resize(room);
+    for (std::size_t k = 0; k < box_.space; ++k) scratch.x[k].resize(room);
   }
 }
 
-/// Every desk has room for the rows of any block, and for longer ones later, as blocks have.
-void Neighbours::widen_desks() {
+/// Every scratch has room for the rows of any block, and for longer ones later, as blocks have.
+void Neighbours::enlarge_scratch() {
   std::size_t most = 0;
   for (const Block& block : blocks()) most = std::max(most, block.slots.size());
-  for (Desk& desk : desks_) {
-    const std::size_t room = 2 * most + desk.slots.size() + 16;
-    if (desk.rows.size() < room) desk.rows.resize(room);
+  for (ThreadScratch& scratch : scratch_) {
+    const std::size_t room = 2 * most + scratch.slots.size() + 16;
+    if (scratch.rows.size() < room) scratch.rows.resize(room);
   }
 }
 
@@ -298,7 +298,7 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
   lay_cells(q);
   sort_into_cells(q);
   divide_rows();
-  clear_desks();
+  clear_scratch();
   // A particle is deep in the box when no image of another one can come within range of it while the lists last.
   double deep[3] = {};
   bool any_deep = true;
@@ -320,8 +320,8 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
     }
     plain_[slot] = plain;
   }
-  share(team, used_blocks_, [&](std::size_t worker, std::size_t b) { find_rows(blocks_[b], desks_[worker], near); });
-  if (!made_) widen_desks();
+  share(team, used_blocks_, [&](std::size_t worker, std::size_t b) { find_rows(blocks_[b], scratch_[worker], near); });
+  if (!made_) enlarge_scratch();
   longest_ = 0;
   for (const Block& block : blocks()) {
     for (const std::uint32_t count : block.counts) longest_ = std::max<std::size_t>(longest_, count);
@@ -331,7 +331,7 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
 }
 
 template <std::size_t Space>
-void Neighbours::place_slots(const double* q, std::size_t first, std::size_t last, Desk& desk) {
+void Neighbours::place_slots(const double* q, std::size_t first, std::size_t last, ThreadScratch& scratch) {
   double most = 0;
   double next = 0;
   for (std::size_t slot = first; slot < last; ++slot) {
@@ -345,28 +345,28 @@ void Neighbours::place_slots(const double* q, std::size_t first, std::size_t las
     next = std::max(next, std::min(most, moved));
     most = std::max(most, moved);
   }
-  desk.moved[1] = std::max({desk.moved[1], next, std::min(desk.moved[0], most)});
-  desk.moved[0] = std::max(desk.moved[0], most);
+  scratch.moved[1] = std::max({scratch.moved[1], next, std::min(scratch.moved[0], most)});
+  scratch.moved[0] = std::max(scratch.moved[0], most);
 }
 
 bool Neighbours::place(const double* q, ThreadTeam* team) {
   if (!made_) return false;
-  for (Desk& desk : desks_) desk.moved[0] = desk.moved[1] = 0;
+  for (ThreadScratch& scratch : scratch_) scratch.moved[0] = scratch.moved[1] = 0;
   const std::size_t pieces = particles_ < worth_sharing ? 1 : particles_ / 1024;
   share(team, pieces, [&](std::size_t worker, std::size_t piece) {
     const std::size_t first = particles_ * piece / pieces;
     const std::size_t last = particles_ * (piece + 1) / pieces;
     if (box_.space == 2) {
-      place_slots<2>(q, first, last, desks_[worker]);
+      place_slots<2>(q, first, last, scratch_[worker]);
     } else {
-      place_slots<3>(q, first, last, desks_[worker]);
+      place_slots<3>(q, first, last, scratch_[worker]);
     }
   });
   double most = 0;
   double next = 0;
-  for (const Desk& desk : desks_) {
-    next = std::max({next, desk.moved[1], std::min(most, desk.moved[0])});
-    most = std::max(most, desk.moved[0]);
+  for (const ThreadScratch& scratch : scratch_) {
+    next = std::max({next, scratch.moved[1], std::min(most, scratch.moved[0])});
+    most = std::max(most, scratch.moved[0]);
   }
   return std::sqrt(most) + std::sqrt(next) <= box_.skin;
 }

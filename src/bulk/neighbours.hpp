@@ -66,7 +66,7 @@ class Neighbours {
 
  private:
   /// Of one worker.
-  struct Desk {
+  struct ThreadScratch {
     // The particles in and around a cell, in the order of their numbers.
     Numbers x[3];
     std::vector<std::uint32_t> slots;
@@ -81,13 +81,13 @@ class Neighbours {
   void lay_cells(const double* q);
   void sort_into_cells(const double* q);
   void divide_rows();
-  void clear_desks();
-  void widen_desks();
+  void clear_scratch();
+  void enlarge_scratch();
   std::size_t cells_beside(std::size_t cell, std::size_t* beside) const;
-  void gather(std::size_t cell, Desk& desk) const;
-  void find_rows(Block& block, Desk& desk, const FindNear* near) const;
+  void gather(std::size_t cell, ThreadScratch& scratch) const;
+  void find_rows(Block& block, ThreadScratch& scratch, const FindNear* near) const;
   template <std::size_t Space>
-  void place_slots(const double* q, std::size_t first, std::size_t last, Desk& desk);
+  void place_slots(const double* q, std::size_t first, std::size_t last, ThreadScratch& scratch);
 
   Box box_;
   std::size_t particles_ = 0;
@@ -105,7 +105,7 @@ class Neighbours {
   Numbers made_at_;                     // by slot, unwrapped
   std::vector<Block> blocks_;
   std::size_t used_blocks_ = 0;
-  std::vector<Desk> desks_;
+  std::vector<ThreadScratch> scratch_;
   std::size_t longest_ = 0;
   bool by_shift_ = true;  // the images nearest to a cell are those that count
   bool made_ = false;

@@ -1,4 +1,4 @@
-// The arithmetics by name, and which method cannot run in which.
+// The arithmetics by name, and why a method cannot run in one of them.
 #include <algorithm>
 
 #include "hamflow/arithmetic/mp.hpp"

@@ -20,7 +20,7 @@
 namespace hamflow {
 
 namespace {
-/// An entry of the list, which lives as long as the program.
+/// A pointer to an entry of the list, which exists as long as the program.
 std::shared_ptr<const ProblemEntry> listed(const ProblemEntry& entry) { return {std::shared_ptr<void>(), &entry}; }
 }  // namespace
 
@@ -82,7 +82,7 @@ std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,
       return listed(entry);
     }
   }
-  return any;  // no entry is declared to be the usual one
+  return any;  // no entry is declared as the usual one
 }
 
 Texts complete(const ProblemInfo& info, const Texts& given) {
@@ -95,20 +95,20 @@ Texts complete(const ProblemInfo& info, const Texts& given) {
   return all;
 }
 
-/// Methods and problems meet with constraints on both sides, or on neither.
+/// A method for constraints needs a problem with constraints; any other method needs a problem without.
 static std::string refusal_of_constraints(const std::string& method, const ProblemEntry& problem) {
   const std::string form = FormulaKeys::constraint_form;
   if (problem.constraint_form.empty()) {
-    return method + " needs constraints g(q) = 0, and " + problem.info.name +
+    return method + " needs constraints g(q) = 0; " + problem.info.name +
            " has none in these coordinates; allowed with coordinates = \"cartesian\" of pendulum, double-pendulum and "
-           "t-tube, or constraints of formula; any other method takes coordinates without constraints";
+           "t-tube, or with constraints of formula; other methods work without constraints";
   }
   if (problem.constraint_form == FormulaKeys::manifold) {
-    return method + " knows no constraints; allowed here: rattle, rattle4, or, with " + form + " = \"" +
+    return method + " does not support constraints; allowed here: rattle, rattle4, or, with " + form + " = \"" +
            FormulaKeys::multiplier + "\", rk4, dop853, taylor";
   }
   return method +
-         " needs the gradient of an H, and the field with multipliers is none; allowed here: rk4, dop853, "
+         " needs the gradient of an H, which the field with multipliers is not; allowed here: rk4, dop853, "
          "taylor, or, with " +
          form + " = \"" + FormulaKeys::manifold + "\", rattle, rattle4";
 }
@@ -117,7 +117,7 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
   if (problem.accepts(spec)) return refused_monitor(spec, problem);
   const bool for_constraints = !problem.constraint_form.empty() || spec.name.starts_with("rattle");
   if (for_constraints) return refusal_of_constraints(spec.name, problem);
-  // All of them, or, of the many, those with which to begin.
+  // All accepted methods; if there are many, only those recommended first.
   std::vector<std::string> accepted;
   std::vector<std::string> first;
   for (const MethodEntry& entry : methods()) {
@@ -133,12 +133,12 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     const MethodEntry& method = find_method(name);
     return method.family->needs(method.index);
   };
-  std::string text = spec.name + " needs " + needs(spec.name) + ", and that of " + problem.info.name + " is ";
+  std::string text = spec.name + " needs " + needs(spec.name) + "; " + problem.info.name;
   std::string only;
   if (problem.info.name == GasKeys::problem) {
     only = gas_that_accepts(spec, {problem.info.variant.begin(), problem.info.variant.end()});
   }
-  text += (only.empty() ? "none" : only) + "; ";
+  text += (only.empty() ? " does not meet this" : " meets this " + only) + "; ";
   if (!first.empty()) {
     const std::string what = needs(first.front());  // "a separable H ...", "an H ..."
     text += first.front() + " takes any" + what.substr(std::min(what.find(' '), what.size())) + "; ";
@@ -152,15 +152,15 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
     return "allowed a whole number from 1 to " + std::to_string(most_threads);
   }
   if (step_control_of(request.method).reversible) {
-    return "threads share steps of equal length only; allowed 1, or step_control = \"fixed\"";
+    return "threads can share only steps of equal length; allowed 1, or step_control = \"fixed\"";
   }
   if (!problem.has_pairwise_forces) {
     std::vector<std::string> all;
     for (const ProblemEntry& entry : problems()) {
       if (entry.has_pairwise_forces) all.push_back(entry.info.name);
     }
-    return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + joined(all) +
-           " with arithmetic = \"lattice\", for " + GasKeys::problem + " in double, too)";
+    return "a step of " + problem.info.name + " is too short to be shared among threads; allowed 1 (more for " +
+           joined(all) + " with arithmetic = \"lattice\", and for " + GasKeys::problem + " in double)";
   }
   const auto pair = request.variant.find(GasKeys::pair);
   const bool in_bulk = problem.info.name == GasKeys::problem && digits_beyond_double(request.arithmetic) == 0 &&
@@ -168,16 +168,16 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
   if (request.arithmetic != "lattice" && !in_bulk) {
     const bool typed = pair != request.variant.end() && pair->second == GasKeys::typed;
     return "in " + request.arithmetic + (typed ? " with a typed pair law" : "") +
-           " threads would change the order of floating-point sums, and with it the bits; " +
-           "allowed 1, or arithmetic = \"lattice\", whose integer sums have no order";
+           " threads would change the order of floating-point sums and therefore the bits; " +
+           "allowed 1, or arithmetic = \"lattice\", whose integer sums do not depend on the order";
   }
   return {};
 }
 
-/// Whether straight code is faster than the compiled loop over bodies or particles. While it fits into the first cache
-/// of instructions it is; longer code takes a fifth of a nanosecond an operation, which roots and quotients of a loop
-/// exceed, but not sums and products that are vectorised (fput). Measured: docs/design.md, Recorded steps.
-static bool beats_loops(const Program& program) {
+/// Whether straight-line code is faster than the compiled loop over bodies or particles. It is if it fits into the
+/// first-level instruction cache. Longer code takes a fifth of a nanosecond per operation: less than roots and
+/// quotients in a loop, more than vectorised sums and products (fput). Measured: docs/design.md, Recorded steps.
+static bool faster_than_loops(const Program& program) {
   constexpr std::size_t in_first_cache = 3500, share = 40;
   const auto count = [&](auto... kinds) {
     return static_cast<std::size_t>(
@@ -209,14 +209,14 @@ std::unique_ptr<Simulation> make_simulation_of(Request request) {
   const int digits = digits_beyond_double(full.arithmetic);
   const MethodFamily& family = *find_method(full.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
-  // Steps of varying length are taken behind virtual calls, one by one, in every arithmetic.
+  // Steps of varying length run behind virtual calls, one by one, in every arithmetic.
   if (digits > 0 || step_control_of(full.method).reversible) return problem.simulate_erased(full);
   const bool of_any_size = problem.dimension == 0;
   if (of_any_size && full.arithmetic != "lattice") {
     auto simulation = problem.simulate_erased(full);
     auto* const recorded = dynamic_cast<RecordedMember*>(simulation.get());
     const auto step = recorded == nullptr ? nullptr : recorded->recorded_step();
-    if (step && beats_loops(step->program)) return simulation;
+    if (step && faster_than_loops(step->program)) return simulation;
     auto typed = problem.simulate(full);
     return typed ? std::move(typed) : std::move(simulation);
   }

@@ -21,7 +21,7 @@ std::size_t longest_digits(const std::string& arithmetic) {
 }
 
 namespace {
-/// Both ways between an entry's chart and the reference; empty in that chart itself.
+/// The maps between an entry's chart and the reference chart; empty for the reference chart.
 DigitCharts charts_of(const ProblemEntry& problem, const Texts& parameters) {
   static const std::vector<ErasedEntry> all = generated_erased();
   const auto number = static_cast<std::size_t>(&problem - problems().data());
@@ -55,7 +55,7 @@ std::string sum_of(const std::string& a, const std::string& b, const std::string
 std::vector<long double> differences_from_first(const std::vector<std::string>& texts) {
   std::size_t longest = 0;
   for (const std::string& text : texts) longest = std::max(longest, text.size());
-  // All of their digits, and those of a long double behind them.
+  // All digits of the texts, and the digits of a long double for the differences.
   const MpDigits scope(static_cast<int>(std::clamp<std::size_t>(longest + 24, MpDigits::fewest, MpDigits::most)));
   std::vector<long double> differences;
   differences.reserve(texts.size());

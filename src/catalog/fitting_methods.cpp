@@ -34,7 +34,7 @@ std::string refusal_with_advice(const MethodSpec& spec, const ProblemEntry* prob
   const std::string why_not = refusal(spec, arithmetic);
   if (why_not.empty()) return why_not;
   const std::string names = fitting_methods({"stv4", "verlet", "taylor", "rk4", "cg"}, problem, arithmetic);
-  return why_not + (names.empty() ? "; allowed another arithmetic: no method takes this problem in " + arithmetic
+  return why_not + (names.empty() ? "; allowed another arithmetic: no method accepts this problem in " + arithmetic
                                   : "; allowed another method, e.g. " + names);
 }
 

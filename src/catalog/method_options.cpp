@@ -15,7 +15,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// "tol=1e-9" and "1e-9" as words stand without quotation marks; those of TOML are allowed.
+/// Removes quotation marks, as TOML has them; words need none here.
 std::string unquoted(const std::string& text) {
   const bool quoted = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
   return quoted ? text.substr(1, text.size() - 2) : text;
@@ -40,7 +40,7 @@ class OptionReader {
     const auto equals = part.find('=');
     const OptionInfo& option = equals == std::string::npos ? next() : named(trimmed(part.substr(0, equals)));
     const std::string text = unquoted(trimmed(equals == std::string::npos ? part : part.substr(equals + 1)));
-    if (into.contains(option.name)) throw Error(method_ + ": " + option.name + ": found it twice; allowed once");
+    if (into.contains(option.name)) throw Error(method_ + ": " + option.name + ": found twice; allowed once");
     if (const std::string refused = refused_value(option, text); !refused.empty()) {
       throw Error(method_ + ": " + option.name + ": " + refused);
     }
@@ -100,10 +100,10 @@ MethodSpec parse_method(const std::string& text) {
   if (open == std::string::npos) return spec;
   const std::string rest = trimmed(text.substr(open));
   if (const auto close = rest.rfind(')'); close == std::string::npos) {
-    throw Error("found '" + text + "', which lacks its closing parenthesis; allowed " + text + ")");
+    throw Error("found '" + text + "' without a closing parenthesis; allowed " + text + ")");
   } else if (close + 1 < rest.size()) {
-    throw Error("found '" + text + "', which has '" + trimmed(rest.substr(close + 1)) +
-                "' behind its closing parenthesis; allowed " + trimmed(text.substr(0, text.rfind(')') + 1)));
+    throw Error("found '" + text + "' with '" + trimmed(rest.substr(close + 1)) +
+                "' after its closing parenthesis; allowed " + trimmed(text.substr(0, text.rfind(')') + 1)));
   }
   const std::string inside = trimmed(rest.substr(1, rest.size() - 2));
   if (inside.empty()) return spec;

@@ -1,4 +1,4 @@
-// The closed list of methods, from the families that declare them.
+// The list of all methods, from the declarations of the families.
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -41,8 +41,8 @@ std::span<const MethodEntry> methods() {
     for (const MethodFamily& family : method_families()) {
       for (std::size_t i = 0; i < family.methods.size(); ++i) list.push_back({family.methods[i], &family, i});
     }
-    // Tables by order and cost, then the rest. Each is described once: a description reads the coefficients of its
-    // table, and the list is made at every start of the command.
+    // Tables first, sorted by order and cost. Each method is described only once, because a description parses the
+    // coefficients of its table and the list is made at every start of the command.
     std::map<std::string, int> keys;
     for (const MethodEntry& entry : list) {
       const MethodInfo info = entry.family->rank > 0 ? MethodInfo{} : entry.family->describe(entry.index, {});
@@ -96,12 +96,12 @@ std::vector<std::string> first_methods() {
 }
 
 namespace {
-/// The unknowns of a step, and how they were to be found. None where no number of them changes that.
+/// The number of unknowns of a step and the options of their iteration. A count of 0: the method has no limit.
 struct Unknowns {
   std::size_t count = 0;
   Iteration iteration = Iteration::newton;
   int max_iterations = 0;
-  int usual_iterations = 0;  // where nothing is said
+  int usual_iterations = 0;  // the default
   bool diagnostics = false;
 };
 
@@ -110,7 +110,7 @@ Unknowns unknowns(std::size_t count, const Options& options) {
   return {count, options.iteration, options.max_iterations, Options{}.max_iterations, options.diagnostics};
 }
 
-/// As the recipes count them.
+/// The unknowns as the recipes count them.
 Unknowns unknowns_and_options(const MethodSpec& spec, std::size_t coordinates) {
   return visit_method(spec, [&]<class M>(const M& recipe) -> Unknowns {
     const auto times = [&](int per_coordinate) { return coordinates * static_cast<std::size_t>(per_coordinate); };
@@ -130,17 +130,16 @@ Unknowns unknowns_and_options(const MethodSpec& spec, std::size_t coordinates) {
   });
 }
 
-std::string above_the_most(const Unknowns& step) {
-  return "a step has " + std::to_string(step.count) + " unknowns, and above " + std::to_string(most_dense_unknowns) +
-         " they are found ";
+std::string unknowns_text(const Unknowns& step) {
+  return "a step has " + std::to_string(step.count) + " unknowns; more than " + std::to_string(most_dense_unknowns) +
+         " are solved ";
 }
 }  // namespace
 
 std::optional<RefusedOption> refused_option(const MethodSpec& spec, std::size_t coordinates) {
   const Unknowns step = unknowns_and_options(spec, coordinates);
   if (step.count <= most_dense_unknowns || !step.diagnostics) return std::nullopt;
-  return RefusedOption{diagnostics_option,
-                       "found true; allowed false: " + above_the_most(step) + "without a tangent, which it is about"};
+  return RefusedOption{diagnostics_option, "found true; allowed false: " + unknowns_text(step) + "without a Jacobian"};
 }
 
 std::vector<ReplacedOption> replaced_options(const MethodSpec& spec, std::size_t coordinates) {
@@ -149,20 +148,21 @@ std::vector<ReplacedOption> replaced_options(const MethodSpec& spec, std::size_t
   if (step.count <= most_dense_unknowns || step.iteration == Iteration::fixed_point) return all;
   if (const auto asked = spec.options.find(families::iteration_option); asked != spec.options.end()) {
     all.push_back(
-        {asked->first, "\"" + asked->second + "\" is not used: " + above_the_most(step) + "by fixed-point iteration"});
+        {asked->first, "\"" + asked->second + "\" is not used: " + unknowns_text(step) + "by fixed-point iteration"});
   }
-  const bool as_if_unsaid = step.iteration == Iteration::newton && step.max_iterations == step.usual_iterations;
+  const bool has_default_iteration =
+      step.iteration == Iteration::newton && step.max_iterations == step.usual_iterations;
   if (const auto asked = spec.options.find(families::max_iterations_option);
-      asked != spec.options.end() && as_if_unsaid) {
+      asked != spec.options.end() && has_default_iteration) {
     all.push_back({asked->first, asked->second + " is taken as " + std::to_string(linear_iterations) + ": " +
-                                     above_the_most(step) + "by fixed-point iteration, for which " + asked->second +
-                                     ", what newton takes where nothing is said, counts as nothing said"});
+                                     unknowns_text(step) + "by fixed-point iteration, and " + asked->second +
+                                     " is only the default of newton"});
   }
   return all;
 }
 
 std::size_t unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
-  // The method behind reference solutions is in no list.
+  // The method of reference solutions is not in the list.
   const bool is_listed = std::ranges::any_of(methods(), [&](const MethodEntry& m) { return m.name == spec.name; });
   return is_listed ? unknowns_and_options(spec, coordinates).count : 0;
 }

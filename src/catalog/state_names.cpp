@@ -6,9 +6,9 @@ namespace hamflow {
 
 namespace {
 
-/// Dimensions of the space that bodies move in; 0 where the coordinates are not those of bodies. The total momentum has
-/// as many components: that of the problem without walls, behind which there is none. A gas, whose container may leave
-/// none, has a parameter that tells.
+/// The dimension of the space in which bodies move; 0 if the coordinates are not those of bodies. It is the number of
+/// components of the total momentum, taken from the problem without walls, since walls remove that invariant. A gas,
+/// whose container may remove it, has a parameter for the dimension.
 std::size_t space_of_bodies(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
   if (problem.info.name == GasKeys::problem) return number_value(parameters.at(GasKeys::dimension)) == 3 ? 3 : 2;
   const auto bare_entry = find_problem(problem.info.name, {});

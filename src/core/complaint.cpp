@@ -7,7 +7,7 @@
 namespace hamflow {
 
 namespace {
-/// One line, whatever a key or a string holds; and nothing that a terminal would obey.
+/// Escapes line ends and control characters, so that a key or a string cannot break the line or steer a terminal.
 std::string plain(const std::string& raw) {
   std::string out;
   for (const char c : raw) {

@@ -1,4 +1,5 @@
-// What follows from constraints: the field whose multipliers are functions of the state, and the way onto the manifold.
+// Motion with constraints: the vector field whose multipliers are functions of the state, and the projection onto the
+// constraints.
 #pragma once
 
 #include <limits>
@@ -8,7 +9,7 @@
 
 namespace hamflow {
 
-/// A state on the constraints, moved there by Newton's method along M^-1 g'^T, with momenta along them; to rounding.
+/// Projects a state onto the constraints, to rounding: q by Newton's method along M^-1 g'^T, p onto the tangent space.
 template <class P, class S, std::size_t N>
 void move_onto_constraints(const P& problem, Vector<S, N>& q, Vector<S, N>& p) {
   constexpr int most = 50;
@@ -40,8 +41,8 @@ void move_onto_constraints(const P& problem, Vector<S, N>& q, Vector<S, N>& p) {
   }
 }
 
-/// The motion on the constraints as a field in all of space, q' = M^-1 p, p' = -V' - g'^T lambda(q, p), which is the
-/// gradient of no H: for methods that take any field, rk4, dop853, taylor. g and g' M^-1 p drift.
+/// The motion on the constraints as a vector field in all of space, q' = M^-1 p, p' = -V' - g'^T lambda(q, p). No H has
+/// this field as its gradient. Methods for any field (rk4, dop853, taylor) integrate it; g and g' M^-1 p drift.
 /// [Sonnleitner2010, p. 22]
 template <Constrained P>
 class ConstrainedField {
@@ -56,7 +57,7 @@ class ConstrainedField {
   S energy(const Vector<S, N>& q, const Vector<S, N>& p) const {
     return hamflow::energy(problem_, q, p);
   }
-  /// -p' and q'. Behind virtual calls a problem with constraints has this field itself.
+  /// -p' and q'. A problem with constraints behind virtual calls computes this field itself.
   template <class S, std::size_t N>
   void gradient(const Vector<S, N>& q, const Vector<S, N>& p, Vector<S, N>& dq, Vector<S, N>& dp) const {
     hamflow::gradient(problem_, q, p, dq, dp);
@@ -64,7 +65,7 @@ class ConstrainedField {
       const Gradients<S, N> rows = constraint_gradients(problem_, q);
       Gradients<S, N> with_mass;
       for (const auto& row : rows) with_mass.push_back(inverse_mass_times(problem_, row));
-      Vector<S, dynamic> right = bends(q, dp);
+      Vector<S, dynamic> right = second_derivatives_along(q, dp);
       for (std::size_t k = 0; k < right.size(); ++k) right[k] = right[k] - dot(with_mass[k], dq);
       const Vector<S, dynamic> lambda = multipliers(rows, with_mass, right);
       for (std::size_t k = 0; k < lambda.size(); ++k) {
@@ -76,7 +77,7 @@ class ConstrainedField {
  private:
   /// g''(v, v), the second derivative of g along a line.
   template <class S, std::size_t N>
-  Vector<S, dynamic> bends(const Vector<S, N>& q, const Vector<S, N>& v) const {
+  Vector<S, dynamic> second_derivatives_along(const Vector<S, N>& q, const Vector<S, N>& v) const {
     using Once = Dual<S, 1>;
     using Twice = Dual<Once, 1>;
     Vector<Twice, N> line{};

@@ -28,7 +28,7 @@ template long double evaluate_number<long double>(std::string_view);
 
 std::int64_t evaluate_whole(std::string_view text) {
   constexpr long double most = 0x1p53L;
-  const auto value = evaluate_number<long double>(text);  // beyond 2^53 a double would hide what is not whole
+  const auto value = evaluate_number<long double>(text);  // a double hides fractions beyond 2^53
   if (std::abs(value) <= most && value == std::nearbyint(value)) return static_cast<std::int64_t>(value);
   const bool large = std::abs(value) > most;
   refuse_at(text, 0,

@@ -17,7 +17,7 @@ bool is_word(const OptionInfo& option, const std::string& text) {
   return std::find(option.words.begin(), option.words.end(), text) != option.words.end();
 }
 
-/// A word as it has to be written beside numbers.
+/// A word as it is written where numbers are allowed too.
 std::string quoted(const std::string& word) { return is_yes_no(word) ? word : "\"" + word + "\""; }
 
 std::string list_text(const OptionInfo& option) {
@@ -40,7 +40,7 @@ std::string found(const OptionInfo& option, const std::string& text) {
   return "found '" + text + "'; allowed " + allowed_text(option);
 }
 
-/// "12", "-0.5", "1e6": what TOML takes for a number; formulas such as "1-2" are texts there.
+/// Whether TOML reads the text as a number: "12", "-0.5", "1e6". Formulas such as "1-2" are strings in TOML.
 bool is_toml_number(const std::string& text) {
   std::size_t at = 0;
   const auto digits = [&] {
@@ -66,7 +66,7 @@ bool is_toml_number(const std::string& text) {
 }
 
 std::string refused_number(const OptionInfo& option, const std::string& text, const std::string& whole_text) {
-  // A text without any number or function was meant to be a word, if there are some, and else is no formula.
+  // A text without a digit or a function call was meant as a word, if the option has words; it is no formula.
   const bool meant_as_word = text != "pi" && text.find_first_of("0123456789(") == std::string::npos;
   if (meant_as_word) return found(option, whole_text) + suggestion(text, option.words);
   try {
@@ -88,7 +88,7 @@ std::string range_text(const Range& range) {
   const bool from = std::isfinite(range.least);
   const bool to = std::isfinite(range.most);
   const auto text = [&](double x) -> std::string {
-    if (x == 0x1p53) return "2^53";  // from where on a double is no longer every whole number
+    if (x == 0x1p53) return "2^53";  // a double holds every whole number up to here
     return range.whole && std::abs(x) < 0x1p63 ? std::to_string(static_cast<long long>(x)) : shortest(x);
   };
   if (from && to && range.least == range.most) return text(range.least);
@@ -112,11 +112,11 @@ std::string allowed_text(const OptionInfo& option) {
     case OptionType::word:
       return joined(option.words);
     case OptionType::word_list:
-      return option.words.empty() ? "an array of texts" : "a list out of " + joined(option.words);
+      return option.words.empty() ? "an array of texts" : "a list of some of " + joined(option.words);
     case OptionType::yes_no:
       return option.words.empty() ? "true, false" : "true, false, or " + joined(option.words);
     case OptionType::text:
-      return "a text that is not empty";
+      return "a non-empty text";
     case OptionType::table:
       return option.keys.empty() ? "a table of texts by name" : "a table with " + joined(option_names(option.keys));
   }

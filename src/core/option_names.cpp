@@ -19,8 +19,8 @@ std::string option_name(std::string_view option) { return used().option(option);
 std::string set_option(const std::string& key, const std::string& value) { return used().set(key, value); }
 std::string command_name(std::string_view words) { return used().command(words); }
 
-std::string advice_to_begin_anew() {
-  return "; give another " + option_name("out") + ", or " + option_name("force") + " to begin anew";
+std::string advice_to_overwrite() {
+  return "; choose another " + option_name("out") + ", or overwrite it with " + option_name("force");
 }
 
 }  // namespace hamflow

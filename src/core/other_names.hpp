@@ -1,5 +1,5 @@
-// Names by which others know what has another name here: of methods, arithmetics, problems, potentials, keys of a
-// scenario and options of the command. Small letters, words joined by '-'; a line is "here: said elsewhere, ...".
+// Names that other programs and texts use for methods, arithmetics, problems, potentials, scenario keys and options.
+// Each line is "name in hamflow: other name, ...", in lower case, with '-' between words.
 #pragma once
 
 #include <string_view>

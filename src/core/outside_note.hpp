@@ -1,5 +1,5 @@
-// Who stood beyond a soft wall. There V is none, and a force that is no number ends the step, wherever in it the place
-// was asked for; which coordinate or particle it was is noted here, so that the run can say it.
+// Records which coordinate or particle left the domain of a soft-wall potential, so that the run can report it. V is
+// undefined outside the domain: the force is NaN there, which ends the step at whatever stage it was evaluated.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// While it lives, functions of this thread say here which soft interval, or which particle, was outside: the first.
+/// While this object exists, functions of this thread record here the first soft interval or particle found outside.
 class OutsideNote {
  public:
   explicit OutsideNote(std::optional<std::size_t>& which) : before_(std::exchange(here(), &which)) {}

@@ -17,12 +17,12 @@ bool names_something(std::span<const std::string> names, std::string_view word) 
 
 std::string refused_formula_name(const std::string& name) {
   if (find_function(name) != nullptr) return "the name " + name + ", which is a function";
-  if (is_keyword(name)) return "the name " + name + ", which is a word of formulas";
+  if (is_keyword(name)) return "the name " + name + ", which is a keyword of formulas";
   if (name == "pi" || name == "Pi") return "the name " + name + ", which is a number";
   if (name == "t") return "the name t, which is the time";
   const bool word = !name.empty() && is_letter(name[0]) &&
                     std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
-  return word ? "" : "the name \"" + shown(name) + "\", which is no word of letters, digits and _";
+  return word ? "" : "the name \"" + shown(name) + "\", which is not a word of letters, digits and _";
 }
 
 std::string Syntax::shown_part(const SyntaxPart& part) const {
@@ -80,9 +80,9 @@ class SyntaxReader {
     return std::string("a number, ") + (rules_.only_numbers ? "pi" : "a name") + ", a function such as sqrt(2), or '('";
   }
   [[noreturn]] void fail_before_operand() const {
-    refuse(at_, character_at(text(), at_) + " where a number has to be", operands());
+    refuse(at_, "a number is missing before " + character_at(text(), at_), operands());
   }
-  /// The text goes on after a complete operand: mostly a forgotten sign of multiplication.
+  /// The text continues after a complete operand, most often because a multiplication sign is missing.
   [[noreturn]] void fail_after_operand(const char* where_it_ends) {
     const std::size_t at = at_;
     std::size_t gap = at;
@@ -95,7 +95,7 @@ class SyntaxReader {
       refuse(at, "',' in a number", "a point before decimals", with(at, at + 1, "."));
     }
     if (here() == '[' && !rules_.only_numbers)
-      refuse(at, "'[' after what is no name", "an index after a name, as in x[1]");
+      refuse(at, "'[' without a name before it", "an index after a name, as in x[1]");
     if (here() == '=' && !rules_.only_numbers) refuse(at, "'=' after a complete formula", "let name = ... in ...");
     if (here() != '(' && !is_letter(here()) && !is_digit(here())) {
       refuse(at, character_at(text(), at) + " after a complete number", go_on);
@@ -157,7 +157,7 @@ class SyntaxReader {
                 .end = end_of(y)});
   }
 
-  /// Counts what is nested while it stands.
+  /// Counts the nesting depth: one level while this object exists.
   class Level {
    public:
     explicit Level(SyntaxReader& reader) : reader_(reader) {
@@ -209,13 +209,14 @@ class SyntaxReader {
                 .begin = begin,
                 .end = end_of(body)});
   }
-  /// A word that gets a meaning here.
+  /// Reads a name that is defined here.
   std::string_view new_name(const char* where) {
     skip_space();
     const std::size_t begin = at_;
     const std::string_view name = word();
     if (name.empty())
-      refuse(begin, character_at(text(), begin) + " where a name has to be " + where, "a name such as r");
+      refuse(begin, "a name is missing " + std::string(where) + ", before " + character_at(text(), begin),
+             "a name such as r");
     if (const std::string why = refused_formula_name(std::string(name)); !why.empty())
       refuse(begin, why, "another name");
     if (names_something(rules_.names, name)) {
@@ -244,7 +245,7 @@ class SyntaxReader {
   int sum_of_products() {
     return chain("+", Operation::add, "-", Operation::subtract, [this] { return product(); });
   }
-  int product() {  // no "**" is met here: a power has read it
+  int product() {  // "**" cannot occur here: unary() has read it
     return chain("*", Operation::multiply, "/", Operation::divide, [this] { return unary(); });
   }
   int unary() {
@@ -265,7 +266,7 @@ class SyntaxReader {
     skip_space();
     const std::size_t power = at_;
     if (!take("**") && !take("^")) return base;
-    return binary(Operation::power, power, base, unary());  // to the right, and 2^-3 is allowed
+    return binary(Operation::power, power, base, unary());  // right-associative; 2^-3 is allowed
   }
   /// The closing bracket that belongs to an opening one. @return the place behind it
   std::size_t closed(std::size_t opened, char bracket) {
@@ -303,7 +304,7 @@ class SyntaxReader {
     at_ = begin + name.size();
     return name_parts(begin, begin + name.size());
   }
-  /// From a word on: its indices, and what follows them. @param end of the word
+  /// Reads the indices behind a word, and the rest of the name behind them. @param end end of the word
   int name_parts(std::size_t begin, std::size_t end) {
     const Level level(*this);
     SyntaxPart part{.kind = SyntaxPart::Kind::name,
@@ -331,7 +332,8 @@ class SyntaxReader {
     }
     return add(part);
   }
-  /// A name where there are none. Short words are near everything: at least a letter has to be the same.
+  /// Refuses a name in a text that may hold numbers only. A proposal must share a letter with it, since a short word is
+  /// near any other.
   [[noreturn]] void fail_at_name(std::string_view name, std::size_t begin) const {
     const std::string near = nearest(lower(name), std::vector<std::string>{"pi"});
     const bool alike = near.find_first_of(lower(name)) != std::string::npos;
@@ -360,12 +362,12 @@ class SyntaxReader {
     part.a = expression();
     skip_space();
     if (two) {
-      if (here() == ')') refuse(at_, "atan2 of one number", usual);
+      if (here() == ')') refuse(at_, "atan2 with one argument", usual);
       if (!take(",")) (void)closed(opened, ')');
       part.b = expression();
       skip_space();
     }
-    if (here() == ',') refuse(at_, word + " of more than " + (two ? "two numbers" : "one number"), usual);
+    if (here() == ',') refuse(at_, word + " with more than " + (two ? "two arguments" : "one argument"), usual);
     part.end = closed(opened, ')');
     return add(part);
   }
@@ -381,7 +383,7 @@ class SyntaxReader {
       skip_space();
       if (!take(",")) {
         if (here() == ')' || at_ == text().size()) {
-          refuse(at_, character_at(text(), at_) + " before all four parts of a sum", usual);
+          refuse(at_, character_at(text(), at_) + " before all four parts of the sum", usual);
         }
         if (k == 0) refuse(at_, character_at(text(), at_) + " after the index of a sum", usual);
         fail_after_operand("','");
@@ -389,7 +391,7 @@ class SyntaxReader {
       *operand[k] = expression();
     }
     skip_space();
-    if (here() == ',') refuse(at_, "a sum of more than four parts", usual);
+    if (here() == ',') refuse(at_, "a sum with more than four parts", usual);
     part.end = closed(opened, ')');
     return add(part);
   }

@@ -122,8 +122,8 @@ std::vector<std::string> Column::texts() const {
 std::vector<double> Column::part(std::size_t i) const {
   const std::span<const double> all = numbers();
   if (i >= info_.width) {
-    throw Error("column " + info_.name + " has " + std::to_string(info_.width) + " values in a row; value " +
-                std::to_string(i) + " was asked for");
+    throw Error("column " + info_.name + " has " + std::to_string(info_.width) + " values in a row; found index " +
+                std::to_string(i));
   }
   std::vector<double> values(rows());
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = all[k * info_.width + i];
@@ -141,7 +141,7 @@ std::vector<std::string> Column::row_of_texts(std::size_t k) const {
 
 Column& Table::add(ColumnInfo info) { return add(Column(std::move(info))); }
 Column& Table::add(Column column) {
-  if (find(column.name()) != nullptr) throw Error("the table has two columns of the name " + column.name());
+  if (find(column.name()) != nullptr) throw Error("the table already has a column " + column.name());
   return columns_.emplace_back(std::move(column));
 }
 

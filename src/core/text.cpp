@@ -9,8 +9,8 @@
 namespace hamflow {
 
 namespace {
-/// The least number of characters to insert, delete or replace, or of neighbours to exchange, no part of the text twice
-/// ([WagnerFischer1974] with the exchange of neighbours).
+/// The least number of insertions, deletions, replacements and exchanges of neighbours that turn a into b, where no
+/// part of the text is edited twice ([WagnerFischer1974] with the exchange of neighbours).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1);  // the row before the last
   std::vector<std::size_t> last(b.size() + 1);
@@ -36,8 +36,8 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The candidate that others call `name`; empty where there is none.
-std::string called_otherwise(const std::string& name, std::span<const std::string> candidates) {
+/// The candidate that `name` is another name of (other_names.hpp); empty if there is none.
+std::string candidate_by_other_name(const std::string& name, std::span<const std::string> candidates) {
   std::string said = lower_case(name);
   std::replace(said.begin(), said.end(), '_', '-');
   std::replace(said.begin(), said.end(), ' ', '-');
@@ -79,8 +79,8 @@ std::vector<std::string> split_list(const std::string& text) {
 }
 
 namespace {
-/// Without what joins the words of a name: px and p_x.
-std::string without_joints(std::string name) {
+/// The name without '_' and '-', so that px equals p_x.
+std::string without_separators(std::string name) {
   std::erase_if(name, [](char c) { return c == '_' || c == '-'; });
   return name;
 }
@@ -89,13 +89,14 @@ std::string without_joints(std::string name) {
 std::string nearest(const std::string& name, std::span<const std::string> candidates) {
   const std::string wanted = lower_case(name);
   const auto joined_otherwise = std::find_if(candidates.begin(), candidates.end(), [&](const std::string& candidate) {
-    return without_joints(lower_case(candidate)) == without_joints(wanted);
+    return without_separators(lower_case(candidate)) == without_separators(wanted);
   });
   if (!wanted.empty() && joined_otherwise != candidates.end()) return *joined_otherwise;
   std::string best;
   std::size_t least = std::max<std::size_t>((name.size() + 1) / 3, 1) + 1;
   for (const std::string& candidate : candidates) {
-    // The distance is at least the difference of the lengths; a very long name would take seconds.
+    // The distance is at least the difference of the lengths. This bound skips very long names, which would take
+    // seconds.
     if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) >= least) continue;
     const std::size_t distance = edit_distance(wanted, lower_case(candidate));
     const bool nothing_in_common = distance >= std::max(name.size(), candidate.size());
@@ -109,7 +110,7 @@ std::string nearest(const std::string& name, std::span<const std::string> candid
     return lower_case(candidate).starts_with(wanted);
   });
   if (begun != candidates.end()) return *begun;
-  // Words of four letters allow one slip; of one that begins like a single candidate a second one is no other word.
+  // A word of four letters allows one error; two are allowed if it begins like exactly one candidate.
   constexpr std::size_t beginning = 3;
   const auto near = [&](const std::string& candidate) {
     const std::string word = lower_case(candidate);
@@ -120,7 +121,7 @@ std::string nearest(const std::string& name, std::span<const std::string> candid
 }
 
 std::string suggestion(const std::string& name, std::span<const std::string> candidates) {
-  const std::string known = called_otherwise(name, candidates);
+  const std::string known = candidate_by_other_name(name, candidates);
   const std::string near = known.empty() ? nearest(name, candidates) : known;
   return near.empty() ? "" : "; did you mean " + near + "?";
 }

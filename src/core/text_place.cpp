@@ -68,7 +68,7 @@ std::string character_at(std::string_view text, std::size_t at) {
 }
 
 namespace {
-/// Without control characters: a line's end as a blank, others as \\x07.
+/// Replaces control characters: line ends and tabs by a blank, others by an escape such as \\x07.
 std::string printable(const std::string& text) {
   static constexpr const char* digits = "0123456789abcdef";
   std::string all;

@@ -9,7 +9,7 @@
 namespace hamflow {
 
 template <class S>
-class AskingFunctions final : public ForwardingFunctions<S> {
+class InterruptibleFunctions final : public ForwardingFunctions<S> {
   using Base = ForwardingFunctions<S>;
   using Base::exact_;
 
@@ -33,11 +33,11 @@ class AskingFunctions final : public ForwardingFunctions<S> {
   S cyclic_rate(const V& q, const S& momentum) const override { return asked().cyclic_rate(q, momentum); }
   RadialLaw<S> radial_law(const S& u) const override { return asked().radial_law(u); }
 
-  static Pointer asking(Pointer exact) { return shared_functions<S>(new AskingFunctions(std::move(exact))); }
+  static Pointer asking(Pointer exact) { return shared_functions<S>(new InterruptibleFunctions(std::move(exact))); }
 
  private:
   const Functions<S>& asked() const {
-    WayOut::ask();
+    StepInterruption::ask();
     return *exact_;
   }
 };

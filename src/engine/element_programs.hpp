@@ -109,7 +109,7 @@ class ElementProgram {
 struct ElementPrograms {
   ElementProgram predicted;  // x from (h, q0, p0)
   ElementProgram started;    // x from a memory, which stands in x
-  ElementProgram evaluated;  // residual, lost, tangent, point and one number, the size of the flight, at x
+  ElementProgram evaluated;  // residual, lost, tangent, point and one number, the size of the free_displacement, at x
   ElementProgram taken;      // x and increments at x
   ElementProgram corrected;  // the same at x + correction
   ElementProgram norm;       // a number, after `evaluated`
@@ -139,7 +139,7 @@ class ElementOnFrame {
         return this->lost_in_residual(at, this->half_impulse(at));
       } else {
         Point sharp = at;
-        this->sharpen(x, sharp);
+        this->remove_residual_rounding(x, sharp);
         return sharp.residual;
       }
     }
@@ -150,7 +150,7 @@ class ElementOnFrame {
         return this->taken(x, at, correction);
       }
     }
-    Number flight() const {
+    Number free_displacement() const {
       if constexpr (natural) {
         return this->flight_;
       } else {
@@ -201,7 +201,7 @@ class ElementOnFrame {
     put(at.residual, f, frame_.residual());
     put(e.lost(d, at), f, frame_.lost());
     put(e.tangent(at), f, frame_.tangent());
-    f[frame_.number()] = e.flight();
+    f[frame_.number()] = e.free_displacement();
     std::size_t i = frame_.point();
     put(at.sum, f, i);
     put(at.target, f, i += frame_.m);

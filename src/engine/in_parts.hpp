@@ -23,12 +23,12 @@ class InParts : public Base {
   using typename StepsInParts<Real>::Place;
   explicit InParts(Base simulation) : Base(std::move(simulation)) {}
 
-  void mark(Place place) override {
+  void remember_state(Place place) override {
     std::unique_ptr<InParts>& kept = marks_.kept[static_cast<std::size_t>(place)];
     if (!kept) kept = std::make_unique<InParts>(*this);
     kept->take(*this);
   }
-  void back(Place place) override { take(*marks_.kept[static_cast<std::size_t>(place)]); }
+  void restore_state(Place place) override { take(*marks_.kept[static_cast<std::size_t>(place)]); }
   Outcome take_part(const Real& h) override {
     InParts::forget();
     const Effort before = method_.effort();

@@ -14,19 +14,20 @@
 namespace hamflow {
 
 namespace detail {
-/// Finds among what an implicit method archives how much Newton doubts its guesses: the count behind what it remembers.
-struct DoubtFinder {
+/// Finds among what an implicit method archives the count of guess failures of Newton, which comes after its
+/// memory.
+struct GuessFailuresFinder {
   static constexpr bool reading = false;
   int* found = nullptr;
   template <class N>
   void operator()(Effort&, StepDiagnostics&, auto&, N& newton) {
     newton.archive(*this);
   }
-  void operator()(auto&, int& doubt) { found = &doubt; }
+  void operator()(auto&, int& guess_failures) { found = &guess_failures; }
 };
 template <class M>
-int& doubt_of(M& method) {
-  DoubtFinder finder;
+int& guess_failures_of(M& method) {
+  GuessFailuresFinder finder;
   method.archive(finder);
   return *finder.found;
 }
@@ -74,7 +75,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   const IterationFrame& frame() const override { return frame_; }
   NewtonOptions newton() const override { return method_.setup().newton(); }
   bool automatic() const override { return method_.setup().automatic(); }
-  int points() const override { return method_.setup().mark(); }
+  int points() const override { return method_.setup().current_rule(); }
   bool can_be_recorded() const override { return static_cast<bool>(*recorder_); }
   std::optional<RecordedIteration> recorded_iteration() const override {
     std::vector<double> values(frame_.size());
@@ -82,7 +83,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
     return (*recorder_)(frame_, values, points(), time_of_clock(), IterationParts::all);
   }
 
-  bool read(std::span<double> values) const override { return fill(values) && method_.newton().trusts_memory(); }
+  bool read(std::span<double> values) const override { return fill(values) && method_.newton().uses_memory(); }
   void take(std::span<const double> values, std::int64_t steps, const Effort& effort) override {
     std::size_t k = IterationFrame::carried;
     for_each_carried([&](double& x) { x = values[k++]; }, z_, probe_);
@@ -131,12 +132,12 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
     if (!runner_) make_runner();
     if (!runner_) return std::nullopt;
     Effort effort = method_.effort();
-    int doubt = detail::doubt_of(method_);
-    if (doubt > 0 && !runner_->settles_doubts()) return 0;
-    const std::int64_t taken = runner_->run(values_, steps, effort, doubt);
+    int guess_failures = detail::guess_failures_of(method_);
+    if (guess_failures > 0 && !runner_->counts_guess_failures()) return 0;
+    const std::int64_t taken = runner_->run(values_, steps, effort, guess_failures);
     if (taken == 0) return 0;
     take(values_, taken, effort);
-    detail::doubt_of(method_) = doubt;
+    detail::guess_failures_of(method_) = guess_failures;
     return taken;
   }
   /// What is asked of every residual, diagnostics, a tangent that is kept and points that change are not in the

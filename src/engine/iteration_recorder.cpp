@@ -35,18 +35,21 @@ bool has_second_derivatives(const ErasedFunctions<double>& functions) {
 }
 }  // namespace
 
-IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, Capability face,
+IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, Capability capabilities,
                                      const AverageOptions& options) {
-  if (face == Capability::smooth) {
+  if (capabilities == Capability::smooth) {
     if (options.element.iteration == Iteration::newton && !has_second_derivatives(functions)) return {};
     return recorder_on<Capability::smooth>(functions, options);
   }
-  if (face != natural) return {};  // the momentum of a cyclic coordinate is a constant of the problem without it
+  if (capabilities != natural)
+    return {};  // the momentum of a cyclic coordinate is a constant of the problem without it
   return recorder_on<natural>(functions, options);
 }
 
-StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capability face, const AverageOptions& options) {
-  if (face != natural || !options.in_stages || first_iteration(options.element.iteration) != Iteration::fixed_point ||
+StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capability capabilities,
+                             const AverageOptions& options) {
+  if (capabilities != natural || !options.in_stages ||
+      first_iteration(options.element.iteration) != Iteration::fixed_point ||
       widest_native_lanes() == LaneSet::generic) {
     return {};
   }

@@ -17,22 +17,22 @@ IterationRunner::IterationRunner(RecordedIteration recorded, const NewtonOptions
   if (!stages_) correct_ = make_step_loop(recorded_.correct.program);
 }
 
-std::int64_t IterationRunner::run(std::span<double> frame, std::int64_t steps, Effort& effort, int& doubt) {
+std::int64_t IterationRunner::run(std::span<double> frame, std::int64_t steps, Effort& effort, int& guess_failures) {
   std::int64_t taken = 0;
-  while (taken < steps && take_step(frame, effort, doubt)) ++taken;
+  while (taken < steps && take_step(frame, effort, guess_failures)) ++taken;
   return taken;
 }
 
 /// @return whether it was taken; if not, the frame is as it was
-bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& doubt) {
+bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& guess_failures) {
   before_.assign(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(recorded_.frame.correction()));
-  int doubt_behind = doubt;
-  const int solves = solved(frame, doubt_behind);
+  int failures_after = guess_failures;
+  const int solves = solved(frame, failures_after);
   if (solves == 0 || !finish_->run(frame, 1)) {
     std::copy(before_.begin(), before_.end(), frame.begin());
     return false;
   }
-  doubt = doubt_behind;
+  guess_failures = failures_after;
   if (stages_) std::copy(next_.begin(), next_.end(), frame.begin() + static_cast<std::ptrdiff_t>(recorded_.frame.x()));
   effort.force += solves * recorded_.of_correct.force + recorded_.of_finish.force;
   effort.gradient += solves * recorded_.of_correct.gradient + recorded_.of_finish.gradient;
@@ -44,9 +44,10 @@ bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& do
   return true;
 }
 
-/// Newton<E>::iterate() without a tolerance, from the first guess, or, where that is in doubt, from the last state.
+/// Newton<E>::iterate() without a tolerance, from the first guess, or, where that is in guess_failures, from the last
+/// state.
 /// @return corrections; 0: it has not converged, or not to where it is believed without a further look
-int IterationRunner::solved(std::span<double> frame, int& doubt) {
+int IterationRunner::solved(std::span<double> frame, int& guess_failures) {
   const IterationFrame& at = recorded_.frame;
   if (stages_) {
     for (std::size_t a = 0; a < at.n; ++a) {
@@ -54,7 +55,7 @@ int IterationRunner::solved(std::span<double> frame, int& doubt) {
       p_[a] = frame[IterationFrame::state(at.n + a)];
     }
     start_.assign(at.m, 0.0);
-    if (doubt == 0) std::copy_n(frame.begin() + static_cast<std::ptrdiff_t>(at.x()), at.m, start_.begin());
+    if (guess_failures == 0) std::copy_n(frame.begin() + static_cast<std::ptrdiff_t>(at.x()), at.m, start_.begin());
     stages_->begin(frame[IterationFrame::h], q_, p_, start_);
   }
   NewtonProgress<double> progress(convergence_of(options_.iteration));
@@ -64,13 +65,14 @@ int IterationRunner::solved(std::span<double> frame, int& doubt) {
     if (decision == NewtonDecision::go_on) continue;
     if (decision != NewtonDecision::settled) return 0;  // to a closer look
     if (!stages_ && options_.iteration == Iteration::newton && is_hidden(frame)) return 0;
-    const bool missed = doubt == 0 && progress.began_far_away(1.0);
-    if ((missed && !stages_) || !end(frame)) return 0;
-    if (missed) {
-      doubt = good_guesses_wanted;
-    } else if (doubt > 0) {  // whether the guess would have been better
+    const bool guess_was_far = guess_failures == 0 && progress.began_far_away(1.0);
+    if ((guess_was_far && !stages_) || !end(frame)) return 0;
+    if (guess_was_far) {
+      guess_failures = good_guesses_needed;
+    } else if (guess_failures > 0) {  // whether the guess would have been better
       const double distance = stages_->distance_of(frame.subspan(at.x(), at.m));
-      doubt = good_guesses_wanted_after(doubt, std::numeric_limits<double>::epsilon() * distance <= 1);
+      guess_failures =
+          good_guesses_needed_after(guess_failures, std::numeric_limits<double>::epsilon() * distance <= 1);
     }
     return k + 1;
   }

@@ -25,14 +25,14 @@ class IterationRunner {
 
   /// Takes steps from a frame with a first guess, until a step is for the simulation.
   /// @return how many were taken; the frame is behind them   @param effort to which their work is added   @param doubt
-  /// of Newton: good guesses still wanted, 0 unless settles_doubts()
-  std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& doubt);
+  /// of Newton: good guesses still wanted, 0 unless counts_guess_failures()
+  std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& guess_failures);
   /// Steps that begin from the last state, and whether such an end is believed, which is asked of no stages.
-  bool settles_doubts() const { return stages_.has_value(); }
+  bool counts_guess_failures() const { return stages_.has_value(); }
 
  private:
-  bool take_step(std::span<double> frame, Effort& effort, int& doubt);
-  int solved(std::span<double> frame, int& doubt);
+  bool take_step(std::span<double> frame, Effort& effort, int& guess_failures);
+  int solved(std::span<double> frame, int& guess_failures);
   bool correct(std::span<double> frame);
   bool end(std::span<double> frame);
   NewtonDecision judge(std::span<const double> frame, NewtonProgress<double>& progress) const;

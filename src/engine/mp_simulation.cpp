@@ -20,9 +20,9 @@ class MpSimulation final : public Simulation {
       for (; steps > 0 && has_long_steps_; --steps) {
         const auto before = inner_->clone();
         try {
-          const WayOut way_out;
+          const StepInterruption interruption;
           if (const Outcome outcome = measured_advance(1); outcome != Outcome::done) return outcome;
-        } catch (const WayOut::Taken&) {
+        } catch (const StepInterruption::Taken&) {
           inner_->restore(before->save());
           return Outcome::stopped;
         }
@@ -63,9 +63,9 @@ class MpSimulation final : public Simulation {
   std::string failure() const override {
     return in_scope([&]() -> std::string {  // the step is taken again
       try {
-        const WayOut way_out;
+        const StepInterruption interruption;
         return inner_->failure();
-      } catch (const WayOut::Taken&) {
+      } catch (const StepInterruption::Taken&) {
         return {};
       }
     });

@@ -106,7 +106,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   }
   /// The numbers of the next step, without its first guess. @return whether that comes from the last three
   bool fill() {
-    if (!method_.newton().trusts_memory() || !method_.newton().memory().is_full()) return false;
+    if (!method_.newton().uses_memory() || !method_.newton().memory().is_full()) return false;
     numbers_.assign(frame_.size(), 0.0);
     numbers_[IterationFrame::h] = clock_.step_length();
     numbers_[IterationFrame::position] = static_cast<double>(clock_.position());
@@ -128,8 +128,8 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     const Vector<double, dynamic> q0 = z_.positions();
     const Vector<double, dynamic> p0 = z_.momenta();
     Effort unused;
-    const Few x = Equations(method_.setup(), Base::problem(), clock_.step_length(), q0, p0, unused)
-                      .started(method_.newton().memory().predicted());
+    const SmallVector x = Equations(method_.setup(), Base::problem(), clock_.step_length(), q0, p0, unused)
+                              .started(method_.newton().memory().predicted());
     for (std::size_t i = 0; i < frame_.m; ++i) numbers_[frame_.x() + i] = x[i];
     points_ = points();
     loop_ = maker_(frame_, numbers_, {clock_.start(), static_cast<double>(clock_.direction())}, points_);
@@ -140,7 +140,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     std::size_t k = IterationFrame::carried;
     for_each_carried([&](double& x) { x = numbers_[k++]; }, z_, probe_);
     for (std::size_t back = 3; back-- > 0;) {
-      Few solution{{}, frame_.m};
+      SmallVector solution{{}, frame_.m};
       for (std::size_t i = 0; i < frame_.m; ++i) solution[i] = numbers_[frame_.memory() + back * frame_.m + i];
       method_.go_on(solution, effort);
     }

@@ -26,8 +26,8 @@ class RecordedElement : public SegmentEquations<P, double> {
   using typename Base::Real;
   using typename Base::V;
   static constexpr std::size_t n = dynamic;
-  using Variables = Few;
-  using Memory = Few;
+  using Variables = SmallVector;
+  using Memory = SmallVector;
 
   class Setup : public SegmentSetup<double> {
    public:
@@ -70,21 +70,21 @@ class RecordedElement : public SegmentEquations<P, double> {
     const ElementPrograms* programs_ = nullptr;
   };
   struct Point {
-    Few residual;
+    SmallVector residual;
     mutable std::array<double, ElementFrame::most> frame;  // also what programs work in
   };
 
   RecordedElement(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
       : Base(problem, h, setup.rule()), setup_(setup), frame_(setup.frame), q0_(q0), p0_(p0), effort_(effort) {}
 
-  Few last_state() const { return {{}, frame_.m}; }
-  Few predicted() const {
+  SmallVector last_state() const { return {{}, frame_.m}; }
+  SmallVector predicted() const {
     Point at;
     begin(at);
     run(setup_.programs().predicted, at);
     return read(at, frame_.x());
   }
-  Few started(const Few& memory) const {
+  SmallVector started(const SmallVector& memory) const {
     if (memory.size() != frame_.m) return last_state();  // of a state that was saved elsewhere
     Point at;
     begin(at);
@@ -92,19 +92,19 @@ class RecordedElement : public SegmentEquations<P, double> {
     run(setup_.programs().started, at);
     return read(at, frame_.x());
   }
-  void evaluate(const Few& x, Point& at) const {
+  void evaluate(const SmallVector& x, Point& at) const {
     begin(at);
     put(x, at, frame_.x());
     run(setup_.programs().evaluated, at);
     at.residual = read(at, frame_.residual());
   }
-  void sharpen(const Few&, Point& at) const {
+  void remove_residual_rounding(const SmallVector&, Point& at) const {
     if (is_natural() && frame_.n <= 2) return;  // taken() makes up for it, as natural.hpp does
-    const Few lost = read(at, frame_.lost());
+    const SmallVector lost = read(at, frame_.lost());
     for (std::size_t i = 0; i < frame_.m; ++i) at.residual[i] = is_natural() ? at.residual[i] + lost[i] : lost[i];
   }
-  FewRows tangent(const Point& at) const {
-    FewRows k;
+  SmallRows tangent(const Point& at) const {
+    SmallRows k;
     k.count = frame_.m;
     const double* from = at.frame.data() + frame_.tangent();
     for (std::size_t i = 0; i < frame_.m; ++i) {
@@ -112,27 +112,27 @@ class RecordedElement : public SegmentEquations<P, double> {
     }
     return k;
   }
-  Correction<Real> measure(const Few& x, const Point& at, const Few& correction) const {
+  Correction<Real> measure(const SmallVector& x, const Point& at, const SmallVector& correction) const {
     if (is_natural()) {
       return NaturalElement<P, Real>::measured(at.frame[frame_.number()], read(at, frame_.point() + frame_.m), x,
                                                correction);
     }
     return GeneralElement<P, Real>::measured(read(at, frame_.point() + 2 * frame_.m), x, correction);
   }
-  Real doubts(const Few& x, const Point& at, const Few& correction) const {
-    const Few target = read(at, frame_.point() + frame_.m);
-    return is_natural() ? NaturalElement<P, Real>::doubted(at.frame[frame_.number()], target, x, correction)
-                        : GeneralElement<P, Real>::doubted(target, x, correction);
+  Real hidden_terms(const SmallVector& x, const Point& at, const SmallVector& correction) const {
+    const SmallVector target = read(at, frame_.point() + frame_.m);
+    return is_natural() ? NaturalElement<P, Real>::hidden_terms_of(at.frame[frame_.number()], target, x, correction)
+                        : GeneralElement<P, Real>::hidden_terms_of(target, x, correction);
   }
-  Increment<Real, n> taken(Few& x, const Point& at) const {
+  Increment<Real, n> taken(SmallVector& x, const Point& at) const {
     put(x, at, frame_.x());
     run(setup_.programs().taken, at);
     return increment_of(x, at);
   }
-  Increment<Real, n> taken(Few& x, const Point& at, const Few& correction) const {
-    Few c = correction;
+  Increment<Real, n> taken(SmallVector& x, const Point& at, const SmallVector& correction) const {
+    SmallVector c = correction;
     if (is_natural() && frame_.n <= 2) {
-      const Few more = NaturalElement<P, Real>::made_up_for(tangent(at), read(at, frame_.lost()));
+      const SmallVector more = NaturalElement<P, Real>::made_up_for(tangent(at), read(at, frame_.lost()));
       for (std::size_t i = 0; i < frame_.m; ++i) c[i] += more[i];
     }
     put(x, at, frame_.x());
@@ -140,25 +140,25 @@ class RecordedElement : public SegmentEquations<P, double> {
     run(setup_.programs().corrected, at);
     return increment_of(x, at);
   }
-  Few memory(const Few&, const Increment<Real, n>& taken) const {
-    Few all{{}, frame_.m};
+  SmallVector memory(const SmallVector&, const Increment<Real, n>& taken) const {
+    SmallVector all{{}, frame_.m};
     for (std::size_t i = 0; i < frame_.n; ++i) {
       if (!is_natural()) all[i] = taken.q[i];
       all[frame_.m - frame_.n + i] = taken.p[i];
     }
     return all;
   }
-  Real norm(const Few& x, const Point& at) const {
+  Real norm(const SmallVector& x, const Point& at) const {
     put(x, at, frame_.x());
-    const double flight = at.frame[frame_.number()];
+    const double free_displacement = at.frame[frame_.number()];
     run(setup_.programs().norm, at);
-    return std::exchange(at.frame[frame_.number()], flight);
+    return std::exchange(at.frame[frame_.number()], free_displacement);
   }
-  bool too_coarse(const Few&, const Increment<Real, n>& u) const {
+  bool too_coarse(const SmallVector&, const Increment<Real, n>& u) const {
     const Work work = finer_work(u);
     return abs(work.gain) > work.rounding;
   }
-  bool believable(const Few&, const Increment<Real, n>& u) const {
+  bool energy_error_acceptable(const SmallVector&, const Increment<Real, n>& u) const {
     if (setup_.rule().points == 1) return true;
     const Work work = finer_work(u);
     return 100 * abs(work.gain) <= work.size;
@@ -194,16 +194,16 @@ class RecordedElement : public SegmentEquations<P, double> {
   void run(const ElementProgram& program, const Point& at) const {
     if (!program.run(at.frame, effort_)) at.frame.fill(std::numeric_limits<double>::quiet_NaN());
   }
-  Few read(const Point& at, std::size_t from) const {
-    Few x;
+  SmallVector read(const Point& at, std::size_t from) const {
+    SmallVector x;
     x.count = frame_.m;
     for (std::size_t i = 0; i < frame_.m; ++i) x[i] = at.frame[from + i];
     return x;
   }
-  static void put(const Few& x, const Point& at, std::size_t to) {
+  static void put(const SmallVector& x, const Point& at, std::size_t to) {
     for (std::size_t i = 0; i < x.size(); ++i) at.frame[to + i] = x[i];
   }
-  Increment<Real, n> increment_of(Few& x, const Point& at) const {
+  Increment<Real, n> increment_of(SmallVector& x, const Point& at) const {
     x = read(at, frame_.x());
     Increment<Real, n> u{V(frame_.n), V(frame_.n)};
     for (std::size_t i = 0; i < frame_.n; ++i) {

@@ -256,7 +256,7 @@ std::optional<RecordedIteration> record_iteration(const typename E::Problem& pro
                                                   const IterationTime& time, IterationParts parts) {
   RecordedIteration made{.frame = frame};
   typename E::Setup setup(problem, options);
-  if (setup.mark() != points) setup.return_to(points);
+  if (setup.current_rule() != points) setup.return_to(points);
   try {
     if (parts == IterationParts::all) {
       detail::record_correction<E, TA>(setup, problem, frame, values, time, made);

@@ -131,9 +131,9 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return true;
   }
 
-  void mark(Place place) override {
-    Base::mark(place);
-    if (place != Place::flight) return;
+  void remember_state(Place place) override {
+    Base::remember_state(place);
+    if (place != Place::path) return;
     is_at_mark_ = true;
     if (numbers_) read_state();
   }
@@ -141,10 +141,10 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     is_at_mark_ = false;
     return Base::take_part(h);
   }
-  bool back_counting(Place place) override {
+  bool restore_state_keeping_effort(Place place) override {
     std::vector<std::int64_t> counts;
     for_each_counter([&](auto& x) { counts.push_back(static_cast<std::int64_t>(x)); }, method_);
-    Base::back(place);
+    Base::restore_state(place);
     std::size_t k = 0;
     for_each_counter([&]<class T>(T& x) { x = static_cast<T>(counts[k++]); }, method_);
     return true;
@@ -156,7 +156,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return end;
   }
   void take_seen_part() override {
-    if (!std::exchange(is_at_mark_, false)) Base::back(Place::flight);
+    if (!std::exchange(is_at_mark_, false)) Base::restore_state(Place::path);
     numbers_->go();
     take_numbers(1);
   }
@@ -249,7 +249,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     std::optional<RecordedPart> recorded = (*part_recorder_)(z_.positions(), z_.momenta(), h);
     if (!recorded) return false;
     numbers_.emplace(*std::move(recorded));
-    Base::back(Place::flight);
+    Base::restore_state(Place::path);
     is_at_mark_ = true;
     read_state();
     return true;

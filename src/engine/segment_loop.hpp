@@ -33,8 +33,8 @@ struct SegmentFrame {
   std::size_t residual() const { return correction() + m; }
   std::size_t lost() const { return residual() + m; }  // what rounding has taken from the residual; or all without it
   std::size_t tangent() const { return lost() + m; }   // row after row
-  std::size_t flight() const { return tangent() + m * m; }
-  std::size_t sum() const { return flight() + 1; }
+  std::size_t free_displacement() const { return tangent() + m * m; }
+  std::size_t sum() const { return free_displacement() + 1; }
   std::size_t target() const { return sum() + m; }
   std::size_t noise() const { return target() + m; }      // of a general element
   std::size_t stiffness() const { return target() + m; }  // of a natural one
@@ -93,9 +93,9 @@ class SegmentLoop {
     NewtonProgress<double> progress(Convergence::quadratic);
     for (int k = 1; k <= most_corrections_; ++k) {
       if (!equations_->run(numbers, 1)) return 0;
-      const Few x = read(numbers, frame_.x());
-      const FewRows tangent = tangent_at(numbers);
-      Few correction = solve(tangent, residual_at(numbers, k > 1));
+      const SmallVector x = read(numbers, frame_.x());
+      const SmallRows tangent = tangent_at(numbers);
+      SmallVector correction = solve(tangent, residual_at(numbers, k > 1));
       const Correction<double> c = measure(numbers, x, correction);
       double total = c.size;
       for (std::size_t i = 0; i < x.size(); ++i) total += std::abs(correction[i]);
@@ -110,7 +110,7 @@ class SegmentLoop {
       }
       if (k == 1 && sharpens()) correction = solve(tangent, residual_at(numbers, true));
       if (!sharpens()) {
-        const Few more = NaturalElement<P, double>::made_up_for(tangent, read(numbers, frame_.lost()));
+        const SmallVector more = NaturalElement<P, double>::made_up_for(tangent, read(numbers, frame_.lost()));
         for (std::size_t i = 0; i < x.size(); ++i) correction[i] += more[i];
       }
       for (std::size_t i = 0; i < x.size(); ++i) numbers[frame_.correction() + i] = correction[i];
@@ -121,8 +121,8 @@ class SegmentLoop {
 
   /// Whether corrections are solved for the residual without its own rounding; in the plane the end makes up for it.
   bool sharpens() const { return !(frame_.is_natural() && frame_.n <= 2); }
-  Few residual_at(std::span<const double> numbers, bool sharp) const {
-    Few r = read(numbers, frame_.residual());
+  SmallVector residual_at(std::span<const double> numbers, bool sharp) const {
+    SmallVector r = read(numbers, frame_.residual());
     if (!sharp || !sharpens()) return r;
     for (std::size_t i = 0; i < frame_.m; ++i) {
       const double lost = numbers[frame_.lost() + i];
@@ -130,8 +130,8 @@ class SegmentLoop {
     }
     return r;
   }
-  FewRows tangent_at(std::span<const double> numbers) const {
-    FewRows k;
+  SmallRows tangent_at(std::span<const double> numbers) const {
+    SmallRows k;
     k.count = frame_.m;
     const double* from = &numbers[frame_.tangent()];
     for (std::size_t i = 0; i < frame_.m; ++i) {
@@ -139,22 +139,23 @@ class SegmentLoop {
     }
     return k;
   }
-  Correction<double> measure(std::span<const double> numbers, const Few& x, const Few& correction) const {
+  Correction<double> measure(std::span<const double> numbers, const SmallVector& x,
+                             const SmallVector& correction) const {
     if (frame_.is_natural()) {
-      return NaturalElement<P, double>::measured(numbers[frame_.flight()], read(numbers, frame_.target()), x,
+      return NaturalElement<P, double>::measured(numbers[frame_.free_displacement()], read(numbers, frame_.target()), x,
                                                  correction);
     }
     return GeneralElement<P, double>::measured(read(numbers, frame_.noise()), x, correction);
   }
-  bool is_hidden(std::span<const double> numbers, const Few& x, const Few& correction) const {
-    const Few target = read(numbers, frame_.target());
-    const double terms = frame_.is_natural()
-                             ? NaturalElement<P, double>::doubted(numbers[frame_.flight()], target, x, correction)
-                             : GeneralElement<P, double>::doubted(target, x, correction);
+  bool is_hidden(std::span<const double> numbers, const SmallVector& x, const SmallVector& correction) const {
+    const SmallVector target = read(numbers, frame_.target());
+    const double terms = frame_.is_natural() ? NaturalElement<P, double>::hidden_terms_of(
+                                                   numbers[frame_.free_displacement()], target, x, correction)
+                                             : GeneralElement<P, double>::hidden_terms_of(target, x, correction);
     return terms > 0;
   }
-  Few read(std::span<const double> numbers, std::size_t from) const {
-    Few x;
+  SmallVector read(std::span<const double> numbers, std::size_t from) const {
+    SmallVector x;
     x.count = frame_.m;
     for (std::size_t i = 0; i < frame_.m; ++i) x[i] = numbers[from + i];
     return x;
@@ -224,7 +225,7 @@ class SegmentRecorder {
     f.put(at.residual, frame_.residual());
     f.put(e.lost(x, at), frame_.lost());
     put(e.tangent(at), f, frame_.tangent());
-    f.numbers[frame_.flight()] = e.flight();
+    f.numbers[frame_.free_displacement()] = e.free_displacement();
     f.put(at.sum, frame_.sum());
     f.put(at.target, frame_.target());
     if constexpr (natural) {

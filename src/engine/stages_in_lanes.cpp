@@ -230,7 +230,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
 }
 
 void StagesInLanes::begin(double h, std::span<const double> q, std::span<const double> p, std::span<const double> x) {
-  row(Layout::unit)[0] = h / detail::golden<double>();
+  row(Layout::unit)[0] = h / detail::golden_ratio<double>();
   row(Layout::length)[0] = std::abs(h);
   for (std::size_t l = 0; l < at_.k; ++l) row(at_.reach())[l] = h * scale_[l];
   for (std::size_t a = 0; a < at_.n; ++a) {

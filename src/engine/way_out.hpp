@@ -9,17 +9,17 @@
 
 namespace hamflow {
 
-class WayOut {
+class StepInterruption {
  public:
   /// Thrown out of the step.
   struct Taken {};
-  WayOut() : before_(std::exchange(is_open(), true)) {}
-  ~WayOut() { is_open() = before_; }
-  WayOut(const WayOut&) = delete;
-  WayOut& operator=(const WayOut&) = delete;
+  StepInterruption() : before_(std::exchange(is_open(), true)) {}
+  ~StepInterruption() { is_open() = before_; }
+  StepInterruption(const StepInterruption&) = delete;
+  StepInterruption& operator=(const StepInterruption&) = delete;
   /// Leaves the step if somebody wants to stop. Where no way is open in this thread, nothing happens.
   static void ask() {
-    if (is_open() && StopQuestion::answered()) throw Taken{};
+    if (is_open() && StopQuestion::stop_requested()) throw Taken{};
   }
 
  private:

@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const std::string& tex
   return all;
 }
 
-/// The same parameters without the values that no name, index or sum needs.
+/// The parameters without values that no name, index or sum needs.
 Texts without_values(const Texts& parameters, const FormulaSymbols& symbols) {
   Texts all;
   for (const auto& [name, text] : parameters) {
@@ -83,14 +83,14 @@ Choices formula_choices(const FormulaTexts& texts) {
   for (const auto& [name, text] : texts.invariants) {
     if (text.find(';') == std::string::npos && name.find_first_of(";=") == std::string::npos) continue;
     throw FormulaError(std::string(FormulaKeys::invariants) + "." + name,
-                       "found ';' or '=' in it; allowed a name and a formula");
+                       "found ';' or '=' in an invariant; allowed a name and a formula");
   }
   for (std::size_t k = 0; k < texts.constraints.size(); ++k) {
     if (texts.constraints[k].find(';') == std::string::npos) continue;
     throw FormulaError(std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]",
-                       "found ';' in it; allowed a formula that is to be 0");
+                       "found ';' in a constraint; allowed a formula that the motion keeps at 0");
   }
-  const formula::Model model(texts);  // says what is wrong
+  const formula::Model model(texts);  // throws if a text is wrong
   FormulaTexts kept = texts;
   kept.parameters = formula::without_values(texts.parameters, model.symbols());
   return formula::choices_of(kept);
@@ -104,7 +104,7 @@ Choices central_formula_choices(const std::string& potential, const Texts& param
         std::string(FormulaKeys::parameters) + "." + taken,
         std::string("found the name ") + taken + ", which " + use.owner + " has itself; allowed another name");
   }
-  // By itself first: errors point into what was typed.
+  // V is checked first, so that errors point into the typed text.
   const formula::ProblemNames names = formula::names_of({.coordinates = {"r"}, .parameters = parameters});
   FormulaSymbols symbols = formula::symbols_of(names);
   symbols.names[1] = "t";  // there is no momentum in V
@@ -196,7 +196,7 @@ FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& p
   for (const SyntaxPart& part : syntax.parts) {
     if (part.kind == SyntaxPart::Kind::let || part.kind == SyntaxPart::Kind::sum) locals.emplace(part.word);
   }
-  // In the order of the text; an operand stands before what is made of it.
+  // In the order of the text; operands come before their operation.
   std::vector<std::pair<std::size_t, std::string>> words;
   for (const SyntaxPart& part : syntax.parts) {
     if (part.kind == SyntaxPart::Kind::name && !locals.contains(std::string(part.word))) {

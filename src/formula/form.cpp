@@ -94,7 +94,7 @@ int Forms::intern(Form form) {
   if (!is_new) return at->second;
   std::size_t size = 1;
   for (const Term& term : kept.terms) size += 1 + term.factors.size();
-  if (size > size_left_) throw Error("found derivatives that are too long; allowed formulas with shorter ones");
+  if (size > size_left_) throw Error("found derivatives that are too long; allowed formulas with shorter derivatives");
   size_left_ -= size;
   std::vector<int> variables;
   for (const Term& term : kept.terms) {
@@ -136,7 +136,7 @@ Term Forms::product(const Term& a, const Term& b) {
   if (const auto c = formula::product(a.c, b.c)) {
     all.c = *c;
   } else {
-    // Too long for a fraction: one of them stands as a constant of its own.
+    // Too long for a fraction: one of them becomes a separate constant.
     const int form = intern({{Term{b.c, {}}}});
     add({base({Base::Kind::group, Op::number, form, -1, {}}), {1, 1}});
   }

@@ -15,17 +15,17 @@ namespace formula {
 
 namespace {
 
-/// What a word means within a let or a sum.
+/// The meaning of a name within a let or a sum.
 struct Local {
   std::string_view word;
   int node = -1;
   std::optional<std::int64_t> whole;  // of the index of a sum
 };
 
-/// Gives names their meaning: syntax to graph. Sums are written out, let shares a node.
-class Meaning {
+/// Resolves names and makes the graph from the syntax tree. Sums are expanded; let shares a node.
+class NameResolver {
  public:
-  Meaning(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols, std::set<std::string>* whole)
+  NameResolver(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols, std::set<std::string>* whole)
       : graph_(graph), syntax_(syntax), symbols_(symbols), whole_used_(whole) {
     for (std::size_t i = 0; i < symbols.names.size(); ++i) numbers_.emplace(symbols.names[i], static_cast<int>(i));
   }
@@ -40,7 +40,8 @@ class Meaning {
     refuse_at(syntax_.text, at, what, allowed, meant);
   }
 
-  /// A chain such as 1 + 2 + ... is as deep as it is long on its left side, which is walked without recursion.
+  /// A chain such as 1 + 2 + ... is as deep as it is long on its left side, so that side is processed without
+  /// recursion.
   int node_of(int root) {
     std::vector<int> chain;
     int part = root;
@@ -213,7 +214,7 @@ class Meaning {
     for (const Local& local : locals_) {
       if (local.word != name) continue;
       if (local.whole) return *local.whole;
-      refuse(part.at, name + " in " + where + ", a name that let gives",
+      refuse(part.at, name + " in " + where + ", a name defined by let",
              "whole expressions (+ - * / ^) of indices, numbers and parameters");
     }
     const auto known = symbols_.known.find(name);
@@ -289,9 +290,9 @@ class Meaning {
     for (const NamedFunction& f : named_functions()) candidates.emplace_back(f.name);
     std::string near = begun_by(name);
     if (near.empty()) near = nearest(name, candidates);
-    // Short words are near everything: at least a letter has to be the same.
+    // A short word is near any other, so a proposal must share a letter with it.
     if (lower(near).find_first_of(lower(name)) == std::string::npos) near = written_here(name);
-    refuse(part.at, name == "t" ? "the time t, which has no meaning here" : "the unknown symbol " + name,
+    refuse(part.at, name == "t" ? "the time t, which is not allowed here" : "the unknown symbol " + name,
            joined(listed), near);
   }
 
@@ -312,7 +313,7 @@ int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols
                                            .operations = FormulaLimits::terms,
                                            .names = symbols.names,
                                            .what = symbols.what});
-  return Meaning(graph, syntax, symbols, whole).read();
+  return NameResolver(graph, syntax, symbols, whole).read();
 }
 
 }  // namespace formula

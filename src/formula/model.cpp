@@ -187,7 +187,7 @@ Model::Model(const FormulaTexts& texts) {
   const bool split = !texts.kinetic.empty() && !texts.potential.empty();
   if (whole && (!texts.kinetic.empty() || !texts.potential.empty())) {
     refuse(FormulaKeys::hamiltonian,
-           "found it beside " + std::string(texts.kinetic.empty() ? FormulaKeys::potential : FormulaKeys::kinetic) +
+           "found together with " + std::string(texts.kinetic.empty() ? FormulaKeys::potential : FormulaKeys::kinetic) +
                "; allowed hamiltonian, or kinetic and potential");
   }
   if (!whole && !split) {
@@ -229,7 +229,7 @@ Model::Model(const FormulaTexts& texts) {
     const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
       roots.push_back(read_into(graph, texts.constraints[k], symbols_, &needed));
-    } catch (const Error&) {  // said with the names that are allowed in it
+    } catch (const Error&) {  // parsed again to report the names that are allowed here
       FormulaSymbols own = symbols_;
       own.what = "coordinates and parameters";
       own.names.erase(own.names.begin() + static_cast<std::ptrdiff_t>(n),
@@ -262,7 +262,7 @@ Model::Model(const FormulaTexts& texts) {
         for (std::size_t i = 0; i < n; ++i) {
           if (!d.forms.depends(form, static_cast<int>(first + i))) continue;
           refuse(own, "found " + symbols_.names[first + i] + " in it; allowed " + of +
-                          ", parameters and t; else hamiltonian");
+                          ", parameters and t; otherwise give hamiltonian");
         }
       };
       foreign(d.t, 0, FormulaKeys::kinetic, "momenta");
@@ -329,11 +329,11 @@ void Model::derive_constraints(const std::vector<int>& values) {
   const std::size_t n = size();
   if (!structure_.quadratic_kinetic) {
     throw FormulaError(FormulaKeys::constraints,
-                       "found constraints beside an H that is not p^T M^-1 p/2 + V(q) with constant M; allowed such "
-                       "an H, or none");
+                       "found constraints with an H that is not p^T M^-1 p/2 + V(q) with constant M; allowed such an "
+                       "H, or no constraints");
   }
   std::vector<Derivation::Output> of_gradients;
-  std::vector<Derivation::Output> of_bends;
+  std::vector<Derivation::Output> curvatures;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
@@ -342,7 +342,7 @@ void Model::derive_constraints(const std::vector<int>& values) {
         if (!d.forms.depends(g, static_cast<int>(i))) continue;
         throw FormulaError(key, "found " + symbols_.names[i] + " in it; allowed coordinates and parameters");
       }
-      std::vector<int> bend;
+      std::vector<int> curvature;
       bool any = false;
       for (std::size_t i = 0; i < n; ++i) {
         const int by = d.derivative(g, position_symbol(i));
@@ -351,12 +351,14 @@ void Model::derive_constraints(const std::vector<int>& values) {
         for (std::size_t j = 0; j < n; ++j) {
           const int second = d.derivative(by, position_symbol(j));
           if (d.forms.is_zero(second)) continue;
-          bend.push_back(d.forms.product(second, d.forms.product(d.symbol(n + i), d.symbol(n + j))));
+          curvature.push_back(d.forms.product(second, d.forms.product(d.symbol(n + i), d.symbol(n + j))));
         }
       }
       for (std::size_t i = n; i < degrees(); ++i) of_gradients.push_back({d.forms.sum({})});
-      if (!any) throw FormulaError(key, "found no coordinate in it; allowed a function of coordinates that is to be 0");
-      of_bends.push_back({d.forms.sum(bend)});
+      if (!any)
+        throw FormulaError(key,
+                           "found no coordinate in it; allowed a function of coordinates that the motion keeps at 0");
+      curvatures.push_back({d.forms.sum(curvature)});
     } catch (const FormulaError&) {
       throw;
     } catch (const Error& error) {
@@ -365,7 +367,7 @@ void Model::derive_constraints(const std::vector<int>& values) {
   }
   constraints = std::make_shared<const Code>(code_of(d.graph, values, d.fixed));
   constraint_gradients = d.code(of_gradients);
-  constraint_bends = d.code(of_bends);
+  constraint_curvatures = d.code(curvatures);
 }
 
 const HessianCode& Model::hessian() const {

@@ -10,8 +10,8 @@ namespace hamflow {
 
 namespace {
 
-/// Energies watched at each step cost no second pass over the pairs: the bulk forces learn after which force the
-/// potential is asked for.
+/// Monitoring the energy at each step needs no second pass over the pairs: the bulk forces learn after which force the
+/// potential is requested.
 class BulkGas final : public ForwardingFunctions<double> {
  public:
   BulkGas(Pointer functions, Gas<double> gas, BulkForces bulk)

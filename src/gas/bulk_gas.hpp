@@ -1,4 +1,4 @@
-// The gas in double with its pairs computed all at once (core/bulk_forces.hpp), and its container added after them.
+// The gas in double, with all pairs computed in one call (core/bulk_forces.hpp) and the container added afterwards.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace hamflow {
 
-/// What the pairs of a gas are for the engine; nothing where phi is typed.
+/// The pairs of a gas as a BulkPairSystem; empty if phi is typed.
 std::optional<BulkPairSystem> bulk_pair_system(const Gas<double>& gas, double skin);
 
-/// The functions of a gas with those of the engine, where it knows the pairs and they are many.
-/// @param threads that compute them; they change no bit
+/// The functions of a gas, using bulk forces if these know the pair law and there are many particles.
+/// @param threads number of threads; does not change a bit
 ErasedFunctions<double> with_bulk_forces(ErasedFunctions<double> functions, const Gas<double>& gas, double skin,
                                          std::size_t threads);
 

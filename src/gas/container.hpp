@@ -1,7 +1,6 @@
-// What holds a gas together beside its pairs: a soft wall around it, a circle in the plane and a sphere in space,
-// V = 1/(2 S^(2+2e)) sum_i 1/(R^2 - |q_i|^2)^e [Sonnleitner2010, ch. 3a]; a periodic box, in which a pair is as far
-// apart as its nearest images; or nothing. The hard walls of a box are walls on coordinates
-// (src/walls/walled_simulation.cpp).
+// The container of a gas: a soft wall (a circle in the plane, a sphere in space), V = 1/(2 S^(2+2e)) sum_i 1/(R^2 -
+// |q_i|^2)^e [Sonnleitner2010, ch. 3a]; a periodic box, in which the distance of a pair is that of its nearest images;
+// or none. The hard walls of a box are walls on coordinates (src/walls/walled_simulation.cpp).
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@ struct ContainerNames {
   }
 };
 
-/// x^-e for a whole e by products, whose bits no library decides.
+/// x^-e for a whole e by products, so that the bits do not depend on a library.
 template <class R, class S>
 S negative_power(const S& x, const R& e, int whole) {
   if (whole == 0) return exp(S(R(-e)) * log(x));
@@ -39,7 +38,7 @@ S negative_power(const S& x, const R& e, int whole) {
   return power;
 }
 
-/// Of one particle. V(g) = strength g^-e, g = R^2 - |q|^2.
+/// The soft wall of one particle: V(g) = strength g^-e, g = R^2 - |q|^2.
 template <class R>
 class SoftWall {
  public:
@@ -64,20 +63,20 @@ class SoftWall {
   }
   /// V_qq = first I + second q q^T.
   template <class S>
-  std::array<S, 2> bend(const S* q, std::size_t space, std::size_t particle) const {
+  std::array<S, 2> hessian_factors(const S* q, std::size_t space, std::size_t particle) const {
     const S g = room(q, space, particle);
     const S first = R(2) * strength_ * exponent_ * (power(g) / g);
     return {first, R(2) * (exponent_ + R(1)) * (first / g)};
   }
 
  private:
-  /// R^2 - |q|^2; no number where the particle is on the wall or beyond it, which is noted.
+  /// R^2 - |q|^2; NaN, and recorded in OutsideNote, if the particle is on or beyond the wall.
   template <class S>
   S room(const S* q, std::size_t space, std::size_t particle) const {
     S g(square_);
     for (std::size_t k = 0; k < space; ++k) g -= q[k] * q[k];
     if constexpr (requires { g.is_exact(); }) {
-      if (!g.is_exact()) return g;  // a Taylor series knows no branches; where its steps end there are numbers again
+      if (!g.is_exact()) return g;  // a Taylor series cannot branch; the check is made at the ends of its steps
     }
     if (S(R(0)) < g) return g;
     OutsideNote::note(particle);
@@ -91,7 +90,7 @@ class SoftWall {
   R square_{};
   R exponent_{};
   R strength_{};
-  int whole_ = 0;  // the exponent where it is a whole number
+  int whole_ = 0;  // the exponent if it is a whole number
 };
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// A pair potential that ends at a distance R. All three ends are potentials, so that H is exact:
+// A pair potential with a cut-off at a distance R. All three forms are potentials, so that H is exact:
 //   shifted        phi(r) - phi(R): continuous, its force jumps at R;
 //   force-shifted  phi(r) - phi(R) - (r - R) phi'(R): the force is continuous;
 //   smooth         phi(r) s(r^2), s = 1 up to `inner`, 0 from R on, between them the polynomial of degree 9 in r^2 with
@@ -26,12 +26,12 @@ struct CutoffNames {
   }
 };
 
-/// Lengths are those of the potential.
+/// Lengths are in the units of the potential.
 template <class R>
 struct Cutoff {
   CutoffKind kind = CutoffKind::none;
   R radius{};
-  R inner{};      // of smooth
+  R inner{};      // for smooth
   R at_radius{};  // phi(R)
   R rate{};       // dphi/dr at R
   R square{};     // R^2
@@ -66,7 +66,7 @@ struct Cutoff {
     }
     return phi;
   }
-  /// @param law asked for phi where it is needed
+  /// @param law evaluates phi
   template <class S, class Law>
   S first(const S& w, const S& slope, const Law& law) const {
     if (kind == CutoffKind::force_shifted) return slope - rate / (R(2) * sqrt(w));
@@ -83,7 +83,7 @@ struct Cutoff {
   }
 
  private:
-  /// 1 at `inner`, 0 at R.
+  /// The switching function s: 1 at `inner`, 0 at R.
   template <class S>
   S place(const S& w) const {
     return (square - w) * inverse_width;

@@ -39,7 +39,7 @@ ParameterInfo number(const char* name, const char* usual, const char* meaning, R
   return {.name = name, .default_value = usual, .meaning = meaning, .range = range, .condition = condition};
 }
 
-/// What the words stand for, and what follows from them for all of the entry's functions.
+/// The choices of an entry and the data that all of its functions derive from them.
 struct Kind {
   GasShape shape;
   Words choices;
@@ -55,7 +55,7 @@ Kind kind_of(const Words& given) {
   kind.shape.cutoff = CutoffNames::kind(cutoff);
   kind.choices = {{Keys::pair, kind.shape.pair}, {Keys::container, container}, {Keys::cutoff_kind, cutoff}};
   if (kind.shape.pair != Keys::typed) return kind;
-  // A central field in which the distance of a pair is the radius.
+  // phi is read as a central potential whose radius is the distance of a pair.
   Choices field{{FormulaKeys::coordinates, "cartesian"}};
   field[FormulaKeys::central_potential] = kind.choices[Keys::phi] = choice(given, Keys::phi, "");
   field[FormulaKeys::parameters] = kind.choices[Keys::parameters] = choice(given, Keys::parameters, "");
@@ -80,13 +80,13 @@ std::vector<ParameterInfo> parameters_of(const Kind& kind) {
   std::vector<ParameterInfo> all{
       {.name = Keys::masses,
        .default_value = "1",
-       .meaning =
-           "of all particles, or one for each: inertia alone, phi is that of every pair (gravity between unequal "
-           "masses is n-body)",
+       .meaning = "mass of all particles, or a mass for each. Masses do not enter phi, which is the same for every "
+                  "pair (for gravity between unequal masses use n-body)",
        .range = Range::positive,
        .type = OptionType::number_or_list},
-      number(Keys::dimension, "2", "of space", Range::whole_from(2, 3)),
-      number(Keys::scale, "1", "S, lengths of the potential for one of the coordinates", Range::positive)};
+      number(Keys::dimension, "2", "dimension of space", Range::whole_from(2, 3)),
+      number(Keys::scale, "1", "S: how many length units of the potential make one unit of the coordinates",
+             Range::positive)};
   for (const ProblemInfo& law : pair_laws()) {
     if (law.name == kind.shape.pair) all.insert(all.end(), law.parameters.begin(), law.parameters.end());
   }
@@ -99,26 +99,28 @@ std::vector<ParameterInfo> parameters_of(const Kind& kind) {
                    .required = true});
   }
   if (kind.shape.container == ContainerKind::circle) {
-    all.push_back(number(Keys::radius, "1.5", "of the circle, or sphere", Range::positive));
-    all.push_back(number(Keys::exponent, "1", "e of its soft wall", {.least = 1}));
+    all.push_back(number(Keys::radius, "1.5", "radius of the circle or sphere", Range::positive));
+    all.push_back(number(Keys::exponent, "1", "exponent e of the soft wall", {.least = 1}));
   }
   if (kind.shape.container == ContainerKind::periodic || kind.shape.container == ContainerKind::box) {
     all.push_back({.name = Keys::size,
-                   .meaning = "edges of the box, whose middle is the origin",
+                   .meaning = "edges of the box, which is centred at the origin",
                    .range = Range::positive,
                    .type = OptionType::list,
                    .required = true});
   }
   if (kind.shape.cutoff != CutoffKind::none) {
     all.push_back({.name = Keys::cutoff,
-                   .meaning = "R, in lengths of the potential",
+                   .meaning = "R, in length units of the potential",
                    .range = Range::positive,
                    .required = true});
     if (kind.shape.cutoff == CutoffKind::smooth) {
-      all.push_back(
-          {.name = Keys::inner, .meaning = "from which on phi fades", .range = Range::positive, .required = true});
+      all.push_back({.name = Keys::inner,
+                     .meaning = "distance from which phi is faded out",
+                     .range = Range::positive,
+                     .required = true});
     }
-    all.push_back(number(Keys::skin, "0.3", "of lists of neighbours; it changes no bit", Range::positive));
+    all.push_back(number(Keys::skin, "0.3", "skin of the neighbour lists; does not change a bit", Range::positive));
   }
   return all;
 }
@@ -153,7 +155,7 @@ std::pair<std::string, std::string> refused_parameters(const Kind& kind, const T
     const std::size_t edges = given.list(Keys::size).size();
     return {std::string(Keys::container) + "." + Keys::size,
             "found " + std::to_string(edges) + (edges == 1 ? " edge" : " edges") + "; allowed " +
-                std::to_string(space) + " edges, as many as problem." + Keys::dimension + " says"};
+                std::to_string(space) + " edges, one for each of problem." + Keys::dimension};
   }
   if (cutoff == CutoffKind::smooth && !(given[Keys::inner] < given[Keys::cutoff])) {
     return {std::string(Keys::cutoff) + "." + Keys::inner, "found " + shortest(given[Keys::inner]) +
@@ -164,15 +166,16 @@ std::pair<std::string, std::string> refused_parameters(const Kind& kind, const T
   const std::vector<double>& edges = given.list(Keys::size);
   const double most = *std::min_element(edges.begin(), edges.end()) / 2 * given[Keys::scale];
   if (cutoff == CutoffKind::none) {
-    return {Keys::container, "allowed with a cutoff of at most " + shortest(most) +
-                                 ", half the shortest edge: a particle meets the nearest image of each other one"};
+    return {Keys::container,
+            "allowed with a cutoff of at most " + shortest(most) +
+                ", half the shortest edge, because a particle interacts with the nearest image of each other particle"};
   }
   if (given[Keys::cutoff] <= most) return {};
   return {Keys::cutoff,
           "allowed at most " + shortest(most) + ", half the shortest edge of the periodic box (times scale)"};
 }
 
-/// Two particles of a periodic box whose nearest images are at one point, from 0.
+/// Two particles (counted from 0) of a periodic box whose nearest images coincide.
 std::optional<std::pair<std::size_t, std::size_t>> at_images(const std::vector<double>& q,
                                                              const std::vector<double>& edges) {
   const std::size_t space = edges.size();
@@ -190,7 +193,7 @@ std::optional<std::pair<std::size_t, std::size_t>> at_images(const std::vector<d
   for (std::size_t i = 1; i < places.size(); ++i) {
     const auto [a, b] = std::minmax(places[i - 1].second, places[i].second);
     bool same = places[i - 1].first == places[i].first;
-    for (std::size_t k = 0; same && k < space; ++k) {  // as the pair itself is computed
+    for (std::size_t k = 0; same && k < space; ++k) {  // computed like the pair itself
       const double d = q[a * space + k] - q[b * space + k];
       same = d - edges[k] * std::nearbyint(d / edges[k]) == 0;
     }
@@ -199,7 +202,7 @@ std::optional<std::pair<std::size_t, std::size_t>> at_images(const std::vector<d
   return std::nullopt;
 }
 
-/// Particles outside, and two at one point, where phi is not defined.
+/// Refuses particles outside the container, and two particles at one point, where phi is undefined.
 std::string refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
   const Parameters<double> given(texts);
   const auto space = static_cast<std::size_t>(given[Keys::dimension]);
@@ -212,7 +215,7 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
     const std::string who = "particle " + std::to_string(i + 1) + " at ";
     if (outside) {
       return who + shortest(std::sqrt(square)) +
-             " from the middle, on the soft wall or beyond it; allowed below radius = " + shortest(given[Keys::radius]);
+             " from the origin, on or beyond the soft wall; allowed below radius = " + shortest(given[Keys::radius]);
     }
   }
   if (given.has("softening") && given["softening"] > 0) return {};
@@ -232,8 +235,7 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
   if (kind.shape.container != ContainerKind::periodic) return {};
   if (const auto same = at_images(q, given.list(Keys::size))) {
     return "particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
-           " at images of one point, whole edges of the periodic box apart; allowed different positions in a box of "
-           "size = [" +
+           " at images of the same point in the periodic box; allowed different positions in a box of size = [" +
            joined(given.list(Keys::size), shortest) + "]";
   }
   return {};
@@ -263,8 +265,8 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), request));
 }
 
-/// The texts of a start that has been read are not kept: those of a million particles take as much memory as their
-/// lists of neighbours. (A binding of every member: one more of them does not compile.)
+/// The request without the texts of its start, which are not kept once they are read: the texts of a million particles
+/// take as much memory as their neighbour lists. (It names every member, so that a new member does not compile.)
 Request without_start(const Request& request) {
   const auto& [problem, variant, walls, parameters, start, method, dt, arithmetic, position_unit, momentum_unit,
                threads, watch, record] = request;
@@ -272,7 +274,7 @@ Request without_start(const Request& request) {
           arithmetic, position_unit, momentum_unit, threads,    watch, record};
 }
 
-/// With pairs by the engine, where it takes them: steps are then not recorded, whose sums would have another order.
+/// Uses bulk forces if these know the pair law. Steps are then not recorded, since recorded sums have another order.
 ErasedFunctions<double> in_bulk(ErasedFunctions<double> functions, const Gas<double>& gas,
                                 const Parameters<double>& given, Request& request) {
   const double skin = given.has(Keys::skin) ? given[Keys::skin] : usual_skin;
@@ -295,7 +297,7 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   const R h = evaluate_number<R>(request.dt);
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
-    // Walls are told, and steps of varying length taken, behind virtual calls.
+    // Walls and steps of varying length need virtual calls.
     const bool behind_calls = request.walls || step_control_of(request.method).reversible;
     if (request.arithmetic == "lattice" && !behind_calls) {
       simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
@@ -315,10 +317,10 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   return telling_who_is_outside(std::move(simulation), std::move(in_double));
 }
 
-/// A lattice refuses the kick of a particle that has come very near the soft wall, which would carry it beyond: where
-/// that kick leads, the same step in double shows, or one soon after it where the kick first carries it across.
+/// A lattice refuses the kick of a particle very close to the soft wall. The same step in double shows where that kick
+/// leads; sometimes the particle leaves the container only a few steps later.
 StepInDouble step_in_double(const GasShape& shape, Request request) {
-  constexpr int followed = 16;  // steps: a kick so large crosses the circle in fewer
+  constexpr int followed = 16;  // steps; after such a large kick a particle crosses the circle in fewer steps
   request.arithmetic = "double";
   request.threads = 1;
   request.watch = false;
@@ -335,7 +337,7 @@ StepInDouble step_in_double(const GasShape& shape, Request request) {
       if (outcome != Outcome::outside) break;
       if (further == 0) return simulation->failure();
       return simulation->failure() + ", in double " + std::to_string(further) + (further == 1 ? " step" : " steps") +
-             " further on: the lattice has no integer for the kick that leads there";
+             " later: the lattice has no integer for the kick that leads there";
     }
     return {};
   };
@@ -344,7 +346,7 @@ StepInDouble step_in_double(const GasShape& shape, Request request) {
 bool accepts(const GasShape& shape, const MethodSpec& method) {
   constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
   const bool branches = shape.cutoff != CutoffKind::none || shape.container == ContainerKind::periodic;
-  if (branches && method.name == "taylor") return false;  // a series has no place where phi ends
+  if (branches && method.name == "taylor") return false;  // a series cannot represent the end of phi
   return visit_method(method, [&](const auto& recipe) {
     if (shape.container == ContainerKind::none)
       return is_accepted<Erased<double, natural | Capability::radial>>(recipe);
@@ -352,8 +354,8 @@ bool accepts(const GasShape& shape, const MethodSpec& method) {
   });
 }
 
-/// The distance within which two particles repel each other, in the lengths of the positions: that of the least of a
-/// Lennard-Jones pair's energy, or its cut-off, where that is less; 0 of other laws.
+/// The distance within which two particles repel each other, in units of the coordinates: the distance of the minimum
+/// of a Lennard-Jones pair's energy, or the cut-off if that is smaller; 0 for other laws.
 double repulsion_of(const Kind& kind, const Parameters<double>& given) {
   if (kind.shape.pair != usual_pair) return 0;
   const bool usual_form = given.has("sigma") || given.has("epsilon");
@@ -409,7 +411,7 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };
-  // By the engine where it takes them: all pairs of a million particles are too many.
+  // With bulk forces if possible: a loop over all pairs of a million particles takes too long.
   const auto functions = [shape, gas](const Texts& parameters, std::size_t size) {
     const Parameters<double> given(parameters);
     Request any;
@@ -458,7 +460,7 @@ ProblemEntry entry_of(const Words& choices) {
   ProblemEntry e;
   ProblemInfo& info = e.info;
   info.name = Keys::problem;
-  // That of lists has none: its keys are more than these words.
+  // The entry of the list has no variant, because its keys are more than these words.
   for (const char* key : {Keys::pair, Keys::container, Keys::cutoff_kind, Keys::phi, Keys::parameters}) {
     const auto found = kind.choices.find(key);
     if (!choices.empty() && found != kind.choices.end()) info.variant.push_back(*found);
@@ -471,7 +473,7 @@ ProblemEntry entry_of(const Words& choices) {
   const GasOptions& o = gas_options();
   info.file_key = o.file.name;
   info.invariants = invariants_of(kind.shape.container);
-  // Three particles near their distance of equilibrium, away from the wall.
+  // Three particles near their equilibrium distance, far from the wall.
   info.region = {.parameters = {{Keys::radius, "3"}},
                  .centre = {0, 0, 1.1, 0.1, 0.4, 1.05, 0.1, 0.15, -0.1, 0.2, 0.1, -0.2},
                  .spread = 0.03,
@@ -502,10 +504,10 @@ std::string gas_that_accepts(const MethodSpec& method, const std::map<std::strin
   const std::string no_container = std::string("with container = { kind = \"") + ContainerNames::none +
                                    "\" } (found kind = \"" + found + "\"" +
                                    (found == ContainerNames::circle ? ", the default)" : ")");
-  const std::string no_cutoff = "without cutoff, beyond which phi ends";
-  if (accepts(open, method)) return "one only " + no_container;
-  if (accepts(whole, method)) return "one only " + no_cutoff;
-  return accepts(both, method) ? "one only " + no_container + " and " + no_cutoff : "";
+  const std::string no_cutoff = "without cutoff, at which phi ends";
+  if (accepts(open, method)) return "only " + no_container;
+  if (accepts(whole, method)) return "only " + no_cutoff;
+  return accepts(both, method) ? "only " + no_container + " and " + no_cutoff : "";
 }
 
 const std::vector<ProblemInfo>& pair_laws() {

@@ -1,4 +1,4 @@
-// The gas in each number type, from its choices and parameters.
+// The functions of the gas in each number type, from its choices and parameters.
 #pragma once
 
 #include "engine/erased.hpp"
@@ -8,16 +8,16 @@
 
 namespace hamflow {
 
-/// From more particles than these on double has the engine (bulk_gas.hpp), and pairs with a cut-off have lists. Fewer
-/// have their steps recorded, with the sums of a loop over all pairs.
+/// With more particles, double uses bulk forces (bulk_gas.hpp), and pairs with a cut-off use neighbour lists. With
+/// fewer, steps are recorded, with the sums of a loop over all pairs.
 inline constexpr std::size_t most_recorded_particles = 12;
-/// Of lists of neighbours, in lengths of the potential.
+/// The skin of neighbour lists, in length units of the potential.
 inline constexpr double usual_skin = 0.3;
 
-/// What is chosen by words.
+/// The choices given by words.
 struct GasShape {
   std::string pair;
-  std::shared_ptr<const formula::Model> typed;  // p_r^2/2 + phi(r), where phi is typed
+  std::shared_ptr<const formula::Model> typed;  // p_r^2/2 + phi(r), if phi is typed
   ContainerKind container = ContainerKind::circle;
   CutoffKind cutoff = CutoffKind::none;
 };
@@ -25,10 +25,10 @@ struct GasShape {
 template <class R>
 using Gas = GasSystem<R, PairLaws<R>>;
 
-/// @param size coordinates of all particles
+/// @param size the number of coordinates of all particles
 template <class R>
 Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t size);
-/// The same behind virtual calls. Instantiated for all number types.
+/// The same functions behind virtual calls. Instantiated for all number types.
 template <class R>
 ErasedFunctions<R> gas_functions(const GasShape& shape, const Parameters<R>& given, std::size_t size);
 

@@ -55,7 +55,7 @@ template <class R>
 ErasedFunctions<R> gas_functions(const GasShape& shape, const Parameters<R>& given, std::size_t size) {
   const Gas<R> gas = make_gas(shape, given, size);
   ErasedFunctions<R> all{capabilities_of<Gas<R>>(), size, functions_of<R>(gas), functions_of<Trace<R>>(gas), nullptr};
-  // eg knows forces along the lines between particles, and nothing else.
+  // eg supports only forces along the lines between particles.
   if (shape.container != ContainerKind::none) {
     all.capability = Capability::separable | Capability::quadratic_kinetic;
   }

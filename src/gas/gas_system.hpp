@@ -1,10 +1,10 @@
 // The gas, N particles in a container:
 //   H = sum |p_i|^2/(2 m_i) + (1/S^2) sum_{i<j} phi(S r_ij) + V of the container,
-// phi one of several pair laws, with or without a cut-off, S a scale of lengths.   [Sonnleitner2010, ch. 1.7, 3a]
-// A pair law is a class with value(u), first(u) and second(u), phi and its derivatives by u = r^2 (problems/pairs).
-// Which one it is, is known at run time: a branch that is always taken the same way costs little beside a quotient, and
-// each law more would have every loop compiled once more for each number type. What pairs give and what the container
-// gives are separate functions: the first can be computed by others.
+// phi one of several pair laws, with or without a cut-off, S a scale of lengths.   [Sonnleitner2010, ch. 1.7, 3a] A
+// pair law is a class with value(u), first(u) and second(u), phi and its derivatives by u = r^2 (problems/pairs). The
+// law is chosen at run time: a well-predicted branch costs little compared with a quotient, while a template would
+// compile every loop again for each law and number type. Pairs and container have separate functions, because bulk
+// forces can compute the pairs.
 #pragma once
 
 #include <cmath>
@@ -28,13 +28,13 @@ struct GasModel : Particles<R> {
   R scale_squared{1};
   Cutoff<R> cutoff{};
   ContainerKind container = ContainerKind::none;
-  SoftWall<R> wall{};                 // of a circle
-  std::vector<R> edges{};             // of a periodic box
-  std::shared_ptr<NearPairs> near{};  // with a cut-off; null: all pairs
+  SoftWall<R> wall{};                 // for a circle
+  std::vector<R> edges{};             // for a periodic box
+  std::shared_ptr<NearPairs> near{};  // neighbour lists for a cut-off; null: all pairs
 
   explicit GasModel(Laws pairs) : law(std::move(pairs)) {}
 
-  /// r^2; d becomes that of the nearest images.
+  /// r^2; replaces d by the difference of the nearest images.
   template <class S>
   S square(S* d, std::size_t axes) const {
     S u(R(0));
@@ -62,13 +62,13 @@ struct GasModel : Particles<R> {
   }
   /// 2 phi' I + 4 phi'' d d^T.
   template <class S>
-  auto bend(const S& u, std::size_t /*i*/, std::size_t /*j*/) const {
-    return [slope = S(R(2) * first(u)), bend = S(R(4) * second(u))](const S* d, std::size_t k, std::size_t l) {
-      return S((k == l ? slope : S(R(0))) + bend * d[k] * d[l]);
+  auto pair_hessian(const S& u, std::size_t /*i*/, std::size_t /*j*/) const {
+    return [slope = S(R(2) * first(u)), outer = S(R(4) * second(u))](const S* d, std::size_t k, std::size_t l) {
+      return S((k == l ? slope : S(R(0))) + outer * d[k] * d[l]);
     };
   }
   static R strength(std::size_t /*i*/, std::size_t /*j*/) { return R(1); }
-  /// Without a container: who offers it looks.
+  /// Valid only without a container; the caller checks this.
   template <class S>
   RadialLaw<S> radial_law(const S& u) const {
     return {value(u), first(u), second(u)};
@@ -76,7 +76,7 @@ struct GasModel : Particles<R> {
   bool turns_freely() const { return container == ContainerKind::none || container == ContainerKind::circle; }
   bool moves_freely() const { return container == ContainerKind::none || container == ContainerKind::periodic; }
 
-  /// (1/S^2) phi(S r) as a function of u = r^2, and its derivatives by u.
+  /// (1/S^2) phi(S r) as a function of u = r^2, with its derivatives by u.
   template <class S>
   S value(const S& u) const {
     const S w = scale_squared * u;
@@ -97,9 +97,9 @@ struct GasModel : Particles<R> {
   }
 
  private:
-  /// d less the whole number of edges that is nearest to d/edge: the same number, and the same roundings, for every
-  /// number type, however far the particles have gone. A recording takes the number as it is where it is recorded; two
-  /// comparisons tell it where another one begins.
+  /// d minus the nearest whole number of edges. The number and the roundings are the same for every number type,
+  /// however far apart the particles are. A recording keeps the number of the recorded state; two comparisons guard the
+  /// range in which it is valid.
   template <class S>
   void to_nearest(std::size_t k, S& d) const {
     const R& edge = edges[k];
@@ -118,7 +118,7 @@ struct GasModel : Particles<R> {
       return x;
     }
   }
-  /// Ties to even, as they are seen in double.
+  /// Ties go to even, as decided in double.
   static R nearest_whole(const R& x) {
     if constexpr (std::is_floating_point_v<R>) {
       return nearbyint(x);
@@ -131,7 +131,7 @@ struct GasModel : Particles<R> {
       return count;
     }
   }
-  /// The first and the last distance of which nearest_whole(d/edge) is `count`.
+  /// The smallest and the largest distance d for which nearest_whole(d/edge) is `count`.
   static std::pair<R, R> range_of_images(const R& count, const R& edge) {
     R first = (count - R(0.5)) * edge;
     R last = (count + R(0.5)) * edge;
@@ -173,7 +173,7 @@ class GasSystem : public PairSystem<R, GasModel<R, Laws>> {
     if (!has_wall()) return;
     for (std::size_t i = 0; i < particles(); ++i) {
       const std::size_t at = i * space();
-      const auto [first, second] = model().wall.bend(q.begin() + at, space(), i);
+      const auto [first, second] = model().wall.hessian_factors(q.begin() + at, space(), i);
       for (std::size_t k = 0; k < space(); ++k) {
         h[at + k][at + k] += first;
         for (std::size_t l = 0; l < space(); ++l) h[at + k][at + l] += second * q[at + k] * q[at + l];
@@ -181,7 +181,7 @@ class GasSystem : public PairSystem<R, GasModel<R, Laws>> {
     }
   }
 
-  // The part of the container.
+  // The contribution of the container.
   template <class S>
   S container_potential(const Vector<S, dynamic>& q) const {
     S sum(R(0));
@@ -198,7 +198,7 @@ class GasSystem : public PairSystem<R, GasModel<R, Laws>> {
       for (std::size_t k = 0; k < space(); ++k) f[at + k] += pull * q[at + k];
     }
   }
-  /// The wall's, for the lattice.
+  /// The kicks of the wall, for the lattice.
   /// @param position the k-th coordinate   @param sink (k, r): adds r to the k-th momentum
   template <class F, class Position, class Sink>
   void single_kicks(const F& factor, const Position& position, const Sink& sink) const {

@@ -61,12 +61,12 @@ class OutsideSimulation final : public Simulation {
   void restore(std::span<const std::byte> saved) override { inner_->restore(saved); }
 
  private:
-  /// A number that is none, or too large for the lattice, where a particle was outside.
+  /// Explains a NaN, or a number too large for the lattice, by a particle outside.
   static Outcome explained(Outcome outcome, const std::optional<std::size_t>& particle, std::string& why) {
     const bool by_number =
         outcome == Outcome::non_finite || outcome == Outcome::not_converged || outcome == Outcome::lattice_overflow;
     if (!particle || !by_number) return outcome;
-    why = "particle " + std::to_string(*particle + 1) + " stood on the soft wall or beyond it";
+    why = "particle " + std::to_string(*particle + 1) + " was on or beyond the soft wall";
     return Outcome::outside;
   }
 

@@ -1,4 +1,4 @@
-// A gas whose soft wall tells which particle stood on it or beyond it, at any stage of a step.
+// A gas that reports which particle was on or beyond its soft wall, at any stage of a step.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace hamflow {
 
-/// Takes the step that a lattice refused, and some more, in double from its last state. @return who was outside; empty:
-/// nobody
+/// Takes the step that a lattice refused, and a few more, in double from the last state. @return which particle was
+/// outside; empty if none
 using StepInDouble = std::function<std::string(const Frame& from, bool backwards)>;
 
 std::unique_ptr<Simulation> telling_who_is_outside(std::unique_ptr<Simulation> simulation, StepInDouble in_double = {});

@@ -1,4 +1,4 @@
-// From the name of a pair law to its type.
+// Maps the name of a pair law to its type.
 #pragma once
 
 #include <stdexcept>
@@ -18,7 +18,7 @@ Laws make_pair_law_of(const std::string& name, const Parameters<R>& given) {
     }
     return make_pair_law_of<Laws, at + 1>(name, given);
   } else {
-    throw std::logic_error("hamflow: there is no pair law of the name " + name);
+    throw std::logic_error("hamflow: there is no pair law " + name);
   }
 }
 

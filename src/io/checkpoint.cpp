@@ -32,7 +32,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(text.data()), text.size());
   const auto damaged = [&](const std::string& how) {
-    return FileError("the checkpoint " + file.string() + " " + how + advice_to_begin_anew());
+    return FileError("the checkpoint " + file.string() + " " + how + advice_to_overwrite());
   };
   if (bytes.size() < 2 * sizeof(std::uint64_t) + sum_bytes) throw damaged("is damaged: it is too short");
   std::uint64_t found_sum = 0;

@@ -1,4 +1,4 @@
-// What the families share whose methods choose sub-steps of their own: dop853 and taylor.
+// Options of the families with adaptive sub-steps: dop853 and taylor.
 #pragma once
 
 #include <cmath>
@@ -11,20 +11,20 @@
 
 namespace hamflow::families {
 
-/// A tolerance given by position stands at `tolerance_position`.
+/// @param tolerance_position the position of the tolerance among options given by position
 inline BoundOptions<AdaptiveOptions> adaptive_options(int tolerance_position) {
   BoundOption<AdaptiveOptions> tolerance =
       bind_number({.name = tolerance_option,
                    .default_value = "1e-12",
-                   .meaning = "on the error of a sub-step, relative to the size of q and of p, each by itself; beyond "
-                              "double four digits above rounding by default",
+                   .meaning = "relative error of q and of p allowed in a sub-step; with more digits than double the "
+                              "default is 10^4 times the rounding",
                    .range = Range::between(0, 1),
                    .position = tolerance_position,
                    .beyond_double = true},
                   &AdaptiveOptions::tolerance);
   return {tolerance, bind_word({.name = step_control_option,
                                 .default_value = "adaptive",
-                                .meaning = "fixed: one sub-step a step, whatever its error"},
+                                .meaning = "fixed: one sub-step per step, whatever its error"},
                                &AdaptiveOptions::fixed, {{"adaptive", false}, {fixed_steps, true}})};
 }
 
@@ -49,7 +49,7 @@ inline std::string canonical_name(const std::string& method, const BoundOptions<
   return parts.empty() ? method : method + "(" + joined(parts, ",") + ")";
 }
 
-/// Where more digits are requested, so is their accuracy: four of them are left to rounding.
+/// Adds a tolerance for arithmetics with more digits than double: four digits are left to rounding.
 inline Texts with_tolerance_of(const Texts& given, int digits) {
   Texts all = given;
   if (digits > 300) {
@@ -65,7 +65,7 @@ inline MethodFamily adaptive_family(const std::string& name, int rank, const Bou
           .methods = {name},
           .options = declarations_of(options),
           .rank = rank,
-          .not_on_lattice = name + " is no bijection of the lattice, so nothing would come back exactly",
+          .not_on_lattice = name + " is not a bijection of the lattice, so it could not be reversed exactly",
           .completed = with_tolerance_of};
 }
 

@@ -32,19 +32,18 @@ struct List {
 };
 }  // namespace families
 
-/// Calls f with the recipe of a method: the one place where a name becomes a type.
+/// Calls f with the recipe of a method. Names become types only here.
 template <class F>
 auto visit_method(const MethodSpec& spec, F&& f) {
   const MethodEntry& entry = find_method(spec.name);
   const std::any options = entry.family->read ? entry.family->read(spec.options) : std::any();
   return families::All::visit(family_number(entry), entry.index, options, [&]<class M>(const M& recipe) {
-    static_assert(MethodRecipe<M>,
-                  "hamflow: what a family of methods visits is a MethodRecipe, see methods/recipe.hpp");
+    static_assert(MethodRecipe<M>, "hamflow: visit() of a family must pass a MethodRecipe, see methods/recipe.hpp");
     return f(recipe);
   });
 }
 
-/// Whether a problem has what the method needs. Some tables, which are known at run time, need more than others.
+/// Whether a problem has the capabilities that the method needs. Some tables, known at run time, need more than others.
 template <class P, class M>
 bool is_accepted(const M& recipe) {
   if constexpr (M::template accepts<P> && !QuadraticKinetic<P> && requires { recipe.needs_quadratic_kinetic(); }) {
@@ -54,9 +53,8 @@ bool is_accepted(const M& recipe) {
   }
 }
 
-/// Runs at full speed: the common shapes in plain double have kernels of their own. What is rare, or bound by its
-/// arithmetic, shares one whose shape is known at run time, which costs a branch a step and takes a quarter of the time
-/// to compile.
+/// The recipe with a shape chosen at run time. Only the common shapes in plain double have kernels of their own. Rare
+/// shapes, and slow arithmetics, share one kernel, which costs one branch per step and a quarter of the compile time.
 template <class M>
 auto with_shape_at_run_time(const M& recipe) {
   if constexpr (requires { recipe.with_any_shape(); }) {

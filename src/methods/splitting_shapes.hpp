@@ -1,5 +1,5 @@
-// What the families of splitting methods share: the kernels among which a table chooses, and what is known of its
-// digits.
+// Functions shared by the families of splitting methods: the choice of a kernel for a table, and the digits of its
+// coefficients.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace hamflow::families {
 
-/// Its shape. The tables of the catalogue live as long as the program: each is read once, and not again for each member
-/// of a sweep.
+/// The shape of a method. The tables of the catalogue exist as long as the program, so each is read once and not again
+/// for each member of a sweep.
 Shape shape_of_known(const AnySplitting& method);
 
-/// Calls f with a recipe: the common shapes have kernels of their own.
+/// Calls f with the recipe of the method's shape; the common shapes have kernels of their own.
 template <class F>
 auto visit_shape(const AnySplitting& method, F&& f) {
   switch (shape_of_known(method)) {
@@ -34,24 +34,24 @@ inline std::string needs_separable(bool nystroem) {
   return std::string("a separable H = T(p) + V(q)") + (nystroem ? ", T quadratic in p with constant mass matrix" : "");
 }
 
-/// What a table says of itself, and beside it what holds for all of its kind.
+/// The advice of a table, completed by the advice for all tables of its kind.
 inline MethodAdvice advice_of(const TableAdvice& own, const MethodInfo& info, bool nystroem) {
   MethodAdvice advice{std::string(own.purpose), std::string(own.take), std::string(own.avoid)};
   if (advice.take.empty()) {
     advice.take = "order " + std::to_string(info.order) +
-                  " is wanted and hamflow compare ranks it before the others of that order on your problem";
+                  " is needed and hamflow compare ranks it before the other methods of that order on your problem";
   }
   if (advice.avoid.empty()) {
     advice.avoid = std::string(nystroem ? "H is not p^T M^-1 p/2 + V(q) with constant M" : "H is not T(p) + V(q)") +
                    ": cg takes any H";
-    if (!info.symmetric) advice.avoid += "; the run has to be reversible: verlet, stv4, kahan-li8 are";
+    if (!info.symmetric) advice.avoid += "; the run must be reversible: verlet, stv4, kahan-li8";
   }
   return advice;
 }
 
-/// The significant digits to which a coefficient is known: all, where it is an expression or a short decimal.
+/// The number of known significant digits of a coefficient; unlimited for an expression or a short decimal.
 inline int known_digits(std::string_view coefficient) {
-  constexpr std::size_t longest_exact = 17;  // no set of the literature has decimals that long on purpose
+  constexpr std::size_t longest_exact = 17;  // no published set has exact decimals that long
   if (coefficient.size() <= longest_exact || coefficient.find_first_not_of("-.0123456789") != std::string_view::npos) {
     return unlimited_digits;
   }
@@ -59,7 +59,7 @@ inline int known_digits(std::string_view coefficient) {
       coefficient.substr(std::min(coefficient.find_first_of("123456789"), coefficient.size()));
   return static_cast<int>(digits.size() - (digits.find('.') == std::string_view::npos ? 0 : 1));
 }
-/// The fewest among several.
+/// The fewest known digits of several coefficients.
 template <std::size_t count>
 int known_digits(const std::array<std::string_view, count>& coefficients) {
   int digits = unlimited_digits;

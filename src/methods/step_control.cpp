@@ -10,16 +10,15 @@ const BoundOptions<StepControl>& control_options() {
   static const BoundOptions<StepControl> all{
       bind_word({.name = step_control_option,
                  .default_value = fixed_steps,
-                 .meaning = "reversible: steps of varying length, for symmetric methods, of which dt is the first; the "
-                            "time is then a part of the state"},
+                 .meaning = "reversible: steps of varying length, for symmetric methods; dt is the length of the first "
+                            "step, and the time is part of the state"},
                 &StepControl::reversible, {{fixed_steps, false}, {reversible_steps, true}}),
       bind_word({.name = monitor_option,
                  .default_value = default_monitor,
-                 .meaning = "what the length of a step follows: equal lengths of the trajectory in phase space, or the "
-                            "distance from the centre or of the nearest two bodies to the power 3/2 (central-force, "
-                            "n-body, solar-system)",
-                 .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps +
-                              "\"; equal steps follow none"},
+                 .meaning = "what controls the step length: arclength gives steps of equal length in phase space; "
+                            "distance gives steps proportional to the power 3/2 of the distance to the centre or "
+                            "between the two closest bodies (central-force, n-body, solar-system)",
+                 .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps + "\""},
                 &StepControl::monitor,
                 {{default_monitor, default_monitor}, {distance_monitor_name, distance_monitor_name}})};
   return all;
@@ -29,7 +28,7 @@ bool declares(const MethodFamily& family) { return find_option(family.options, m
 }  // namespace
 
 StepControl step_control_of(const MethodSpec& method) {
-  // Most have none, and the method behind reference solutions is in no list.
+  // Most methods have no step control, and the method of reference solutions is not in the list.
   if (!method.options.contains(step_control_option)) return {};
   return declares(*find_method(method.name).family) ? read_options(control_options(), method.options) : StepControl{};
 }
@@ -47,7 +46,7 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
     const auto monitor = method.options.find(monitor_option);
     if (monitor == method.options.end()) return std::nullopt;
     return RefusedOption{monitor_option, "found \"" + monitor->second +
-                                             "\" with steps of equal length, which follow none; allowed with " +
+                                             "\" with steps of equal length, which have no monitor; allowed with " +
                                              step_control_option + " = \"" + reversible_steps + "\""};
   }
   const MethodInfo info = entry.family->describe(entry.index, method.options);
@@ -57,10 +56,9 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
                                                   ", or a symmetric method"};
   }
   if (info.diagnostics) {
-    return RefusedOption{step_control_option,
-                         std::string("found \"") + reversible_steps +
-                             "\" with diagnostics, whose times are those of equal steps; allowed " + fixed_steps +
-                             ", or no diagnostics"};
+    return RefusedOption{step_control_option, std::string("found \"") + reversible_steps +
+                                                  "\" with diagnostics, which need steps of equal length; allowed " +
+                                                  fixed_steps + ", or no diagnostics"};
   }
   return std::nullopt;
 }

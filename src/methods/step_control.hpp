@@ -1,4 +1,4 @@
-// The lengths of steps, by name: the options that every family has whose steps are of one length otherwise.
+// The options for steps of varying length, of every family that does not control its steps itself.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// What a method's options say about the lengths of its steps.
+/// The step control that the options of a method select.
 struct StepControl {
   bool reversible = false;
   std::string monitor = default_monitor;
@@ -18,9 +18,9 @@ StepControl step_control_of(const MethodSpec& method);
 
 /// Declares step_control and monitor, in families that do not control their steps themselves.
 void add_step_control(MethodFamily& family);
-/// What is wrong with the two, or with others beside them.
+/// An error in these two options, or in their combination with others.
 std::optional<RefusedOption> refused_step_control(const MethodSpec& method);
-/// Why a problem has no such monitor; empty where it has.
+/// Why a problem does not have the monitor; empty if it does.
 std::string refused_monitor(const MethodSpec& method, const ProblemEntry& problem);
 
 }  // namespace hamflow

@@ -16,7 +16,7 @@ constexpr std::size_t few = 4;
 /// What Eigen does with so few equations, in its order and with its bits, for a tenth of the time: in a step of an
 /// implicit method on one or two coordinates the calls of Eigen cost more than the forces.
 template <class R>
-void solve_few(const R* m, R* b, std::size_t size) {
+void solve_small(const R* m, R* b, std::size_t size) {
   R a[few][few];
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j < size; ++j) a[i][j] = m[i * size + j];
@@ -49,7 +49,7 @@ void solve_few(const R* m, R* b, std::size_t size) {
 template <class R>
 void solve_with(const R* m, R* b, std::size_t size, std::size_t columns) {
   if (size <= few && columns == 1) {
-    solve_few(m, b, size);
+    solve_small(m, b, size);
     return;
   }
   // Kept from call to call: a run solves systems of one size, and then nothing is allocated.

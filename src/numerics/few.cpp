@@ -4,7 +4,7 @@ namespace hamflow {
 
 namespace {
 template <std::size_t n>
-Few solved(const FewRows& m, const Few& b) {
+SmallVector solved(const SmallRows& m, const SmallVector& b) {
   Matrix<double, n> matrix{};
   Vector<double, n> right{};
   for (std::size_t i = 0; i < n; ++i) {
@@ -12,11 +12,11 @@ Few solved(const FewRows& m, const Few& b) {
     right[i] = b[i];
   }
   const Vector<double, n> solution = hamflow::solve(matrix, right);
-  Few x = b;
+  SmallVector x = b;
   for (std::size_t i = 0; i < n; ++i) x[i] = solution[i];
   return x;
 }
-Matrix<double, dynamic> as_matrix(const FewRows& m) {
+Matrix<double, dynamic> as_matrix(const SmallRows& m) {
   Matrix<double, dynamic> out(m.size());
   for (std::size_t i = 0; i < m.size(); ++i) {
     for (std::size_t j = 0; j < m.size(); ++j) out[i][j] = m[i][j];
@@ -25,7 +25,7 @@ Matrix<double, dynamic> as_matrix(const FewRows& m) {
 }
 }  // namespace
 
-Few solve(const FewRows& m, const Few& b) {
+SmallVector solve(const SmallRows& m, const SmallVector& b) {
   switch (b.size()) {
     case 1:
       return solved<1>(m, b);
@@ -42,7 +42,7 @@ Few solve(const FewRows& m, const Few& b) {
   }
 }
 
-double determinant(const FewRows& m) { return determinant(as_matrix(m)); }
-double condition_number(const FewRows& m) { return condition_number(as_matrix(m)); }
+double determinant(const SmallRows& m) { return determinant(as_matrix(m)); }
+double condition_number(const SmallRows& m) { return condition_number(as_matrix(m)); }
 
 }  // namespace hamflow

@@ -71,7 +71,7 @@ struct Rails {
   static Vector<R, 2> angles(const Vector<R, 4>& x) { return {x[0], x[3]}; }
 };
 
-/// To the chart of generalised coordinates, angles mostly, and back.
+/// Maps to the chart of generalised coordinates (mostly angles) and back.
 template <template <class> class Map>
 struct ChartOfAngles {
   static constexpr std::size_t k = Map<double>::dimension;
@@ -146,7 +146,7 @@ DigitCharts digit_charts(const Texts& parameters) {
           }};
 }
 
-/// The motion of the plane pendulum by elliptic functions, in its angle.
+/// The exact motion of the plane pendulum, by elliptic functions of its angle.
 std::optional<Frame> exact_pendulum(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p,
                                     double t) {
   using Chart = ChartOfAngles<Circle>;
@@ -168,7 +168,7 @@ std::optional<Frame> exact_pendulum(const Texts& parameters, const std::vector<d
   return frame;
 }
 
-/// The entry of texts whose parameters are those of another entry, with the kinetic energy of points.
+/// A problem given by texts, with the parameters of another entry and the kinetic energy of point masses.
 ProblemEntry entry_of_texts(const char* name, FormulaTexts texts, const std::string& form) {
   texts.constraint_form = form;
   const FormulaStructure structure{.separable = true,
@@ -176,7 +176,7 @@ ProblemEntry entry_of_texts(const char* name, FormulaTexts texts, const std::str
                                    .constraints = texts.constraints.size(),
                                    .multiplier = form == FormulaKeys::multiplier};
   ProblemEntry entry = entry_of_model({texts, structure});
-  entry.structure = std::nullopt;  // what was found in typed texts is no news of a problem that is built in
+  entry.structure = std::nullopt;  // the analysis of typed texts is not reported for a built-in problem
   entry.info.name = name;
   entry.info.coordinates = texts.coordinates;
   return entry;
@@ -233,7 +233,7 @@ ProblemEntry double_pendulum(const std::string& form) {
   entry.refused_parameters = [](const Texts& given) -> std::pair<std::string, std::string> {
     const Parameters<double> values(given);
     for (const double inertia : values.list("inertias")) {
-      if (inertia != 0) return {"inertias", "allowed [0, 0] in Cartesian coordinates, else angles"};
+      if (inertia != 0) return {"inertias", "allowed [0, 0] in Cartesian coordinates; otherwise use angles"};
     }
     return {};
   };

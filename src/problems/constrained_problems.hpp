@@ -1,5 +1,5 @@
-// Problems of the catalogue in Cartesian coordinates with constraints. Their Hamiltonians are texts, as those of the
-// problem `formula` are: nothing is instantiated for them but their charts.   (docs/design.md, Constraints)
+// Problems of the catalogue in Cartesian coordinates with constraints. Their Hamiltonians are texts, as for the problem
+// `formula`; only their charts are templates. (docs/design.md, Constraints)
 #pragma once
 
 #include <functional>
@@ -11,15 +11,15 @@
 
 namespace hamflow {
 
-/// Each in both forms.
+/// All problems, in both constraint forms.
 std::vector<ProblemEntry> constrained_problems();
 
-/// Changes of coordinates in an arithmetic beyond double, as ErasedEntry has them.
+/// Changes of coordinates in an arithmetic with more digits than double, as in ErasedEntry.
 struct DigitCharts {
   std::function<DigitState(const std::string& arithmetic, const DigitState&)> to_reference{};
   std::function<DigitState(const std::string& arithmetic, const DigitState&)> from_reference{};
 };
-/// Of an entry of constrained_problems(); empty where it has no other chart.
+/// The charts of an entry of constrained_problems(); empty if it has no other chart.
 DigitCharts constrained_digit_charts(const ProblemEntry& entry, const Texts& parameters);
 
 }  // namespace hamflow

@@ -1,5 +1,5 @@
-// One problem behind virtual calls, in every number type, and what is known of it. The build makes one translation unit
-// of it per problem.
+// One problem behind virtual calls, in every number type, with its catalogue entry. The build makes one translation
+// unit of it per problem.
 #pragma once
 
 #include <algorithm>
@@ -65,8 +65,7 @@ class ErasedUnit : ProblemStart<Family> {
                               request);
   }
 
-  /// Constants that are made of the parameters, such as m omega^2, in the arithmetic of the run, or as it has them in
-  /// double.
+  /// Constants derived from the parameters, such as m omega^2, computed in the arithmetic of the run or in double.
   template <class R>
   static Family<R> problem_of(const Request& request, std::size_t size) {
     if constexpr (!std::is_same_v<R, double> && std::is_constructible_v<Family<R>, const Family<double>&>) {

@@ -1,4 +1,4 @@
-// What the catalogue offers of a typed Hamiltonian: as ProblemUnit and ErasedUnit do of a problem that is a type.
+// The catalogue entry of a typed Hamiltonian. ProblemUnit and ErasedUnit do the same for a problem that is a C++ type.
 #include "core/constrained_motion.hpp"
 #include "engine/double_constants.hpp"
 #include "engine/erased.hpp"
@@ -21,7 +21,7 @@ namespace hamflow {
 namespace {
 
 template <class R>
-using FormulaFace = Erased<R, Capability::smooth>;
+using AnyFormula = Erased<R, Capability::smooth>;
 
 template <class R>
 ErasedFunctions<R> functions_of(const EntryModel& model, const Parameters<R>& parameters,
@@ -48,7 +48,7 @@ std::string refused_size(const EntryModel& model, std::size_t size) {
 template <class R>
 using StateOf = Start<R, dynamic>;
 
-/// What is asked of an entry: its model, and the field, if it is a central one.
+/// The data of an entry: its model, and the field if it is a central force.
 struct Typed {
   EntryModel model;
   std::optional<TypedField> field;
@@ -58,7 +58,7 @@ struct Typed {
   }
 };
 
-/// By energy and angular momentum, as CentralForce does it.
+/// A start by energy and angular momentum, as in CentralForce.
 template <class R>
 StateOf<R> orbit_of(const TypedField& field, const Texts& texts, const StartSpec& spec, Conditions& conditions) {
   using Rough = std::conditional_t<std::is_floating_point_v<R>, R, long double>;
@@ -73,9 +73,9 @@ StateOf<R> orbit_of(const TypedField& field, const Texts& texts, const StartSpec
   return {{s.q[0], s.q[1]}, {s.p[0], s.p[1]}};
 }
 
-/// As ProblemStart does it.
+/// The start, as in ProblemStart.
 template <class R>
-StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Request& request) {
+StateOf<R> start_of(const Typed& typed, const AnyFormula<R>& problem, const Request& request) {
   const EntryModel& model = typed.model;
   const StartSpec& spec = request.start;
   if (spec.geometric() && typed.field) {
@@ -93,14 +93,14 @@ StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Req
         throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
                     std::to_string(texts.size()));
       }
-      Vector<R, dynamic> out(model.degrees());  // the time and its momentum begin at 0
+      Vector<R, dynamic> out(model.degrees());  // time and its momentum start at 0
       for (std::size_t i = 0; i < texts.size(); ++i) {
         out[i] = is_left_to_energy(texts[i]) ? free : evaluate_number<R>(texts[i]);
       }
       return out;
     };
     StateOf<R> s{read(spec.q), read(spec.v.empty() ? spec.p : spec.v)};
-    if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p, model.size());
+    if (!spec.v.empty()) s.p = ProblemStart<AnyFormula>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), request));
@@ -111,8 +111,8 @@ std::unique_ptr<Simulation> without_time(const EntryModel& model, std::unique_pt
   return std::make_unique<TimedSimulation>(std::move(simulation));
 }
 
-/// Operations at one point of a quadrature. With more of them than can be straight code for up to 64 points the loops
-/// over points and coordinates are faster.
+/// Operations at one quadrature point. If there are too many for straight-line code with up to 64 points, loops over
+/// points and coordinates are faster.
 std::size_t operations_at_point(const formula::Model& model) {
   if (includes(capabilities_of(model.structure()), Capability::quadratic_kinetic)) {
     return model.force_and_hessian().code->steps.size();
@@ -123,7 +123,7 @@ std::size_t operations_at_point(const formula::Model& model) {
 std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, const ErasedRun<double>& run,
                                                const Request& request) {
   constexpr std::size_t most_operations = 2000;
-  if (request.walls) return simulate_erased<double>(run, request);  // the programs below know none
+  if (request.walls) return simulate_erased<double>(run, request);  // the programs below have no walls
   auto element = visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
     if constexpr (std::is_same_v<M, Cg>) {
       if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, request, recipe.options);
@@ -133,7 +133,7 @@ std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, cons
   return element ? std::move(element) : simulate_erased<double>(run, request);
 }
 
-/// Decided in double, for every arithmetic.
+/// The method of a request. The choice is made in double, so that every arithmetic makes the same one.
 MethodSpec method_of(const Typed& typed, const Request& request) {
   if (unknowns_of_step(request.method, typed.model.degrees()) == 0) return request.method;
   const ErasedFunctions<double> functions = functions_of<double>(typed.model, request.parameters);
@@ -156,18 +156,18 @@ std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& asked
   return without_time(model, simulate_erased<R>(run, request));
 }
 
-/// Methods for any field, which need no gradient.
+/// Whether a method accepts any vector field, not only J grad H.
 bool takes_any_field(const MethodSpec& method) {
   return method.name == "rk4" || method.name == "dop853" || method.name == "taylor";
 }
 
-/// Conditions of order for T quadratic in p hold with an explicit t as well: they follow from the degrees in p of
-/// commutators, which T + E and V(q, t) do not exceed; E stands for a momentum whose mass goes to infinity, and of such
-/// T the linear term is a shift of p.
+/// Order conditions for T quadratic in p also hold with explicit t: they follow from the degrees in p of commutators,
+/// which T + E and V(q, t) do not exceed. E is the momentum of a coordinate whose mass goes to infinity, and a linear
+/// term of such a T is a shift of p.
 bool accepts(const FormulaStructure& structure, const MethodSpec& method) {
   constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
   if (structure.multiplier) return takes_any_field(method);
-  // Its correction along all coordinates would change the pace of those that carry the time.
+  // Its correction along all coordinates would change the rate of the coordinates that hold the time.
   if (structure.time && method.name == "discrete-gradient") return false;
   return visit_method(method, [&]<class M>(const M& recipe) {
     if (structure.constraints > 0) return std::is_same_v<M, Rattle>;
@@ -177,14 +177,14 @@ bool accepts(const FormulaStructure& structure, const MethodSpec& method) {
   });
 }
 
-/// @param size degrees of freedom: the time begins at 0
+/// @param size degrees of freedom; the time starts at 0
 Vector<double, dynamic> vector_of(const std::vector<double>& x, std::size_t size) {
   Vector<double, dynamic> v(size);
   for (std::size_t i = 0; i < x.size(); ++i) v[i] = x[i];
   return v;
 }
 
-/// @param size coordinates that have names
+/// @param size number of coordinates with names
 Frame frame_of(const StateOf<double>& s, std::size_t size) {
   Frame frame;
   frame.q.assign(s.q.begin(), s.q.begin() + size);
@@ -192,14 +192,14 @@ Frame frame_of(const StateOf<double>& s, std::size_t size) {
   return frame;
 }
 
-/// Whether gradients depend on each other, or vanish, to the rounding of their entries: multipliers of such constraints
-/// are nobody's.
+/// Whether gradients are linearly dependent or vanish, to the rounding of their entries. The multipliers of such
+/// constraints are undefined.
 bool depend_on_each_other(const Gradients<double, dynamic>& rows) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   Gradients<double, dynamic> units;
   for (Vector<double, dynamic> row : rows) {
     const double whole = std::sqrt(dot(row, row));
-    if (!std::isfinite(whole)) return false;  // which is complained about as no regular point
+    if (!std::isfinite(whole)) return false;  // the caller reports that the point is not regular
     for (const auto& unit : units) {
       const double along = dot(row, unit);
       for (std::size_t i = 0; i < row.size(); ++i) row[i] -= along * unit[i];
@@ -247,7 +247,7 @@ MethodSpec method_taken(const Request& request) {
 
 ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field) {
   const Typed typed{model, field};
-  const auto face = [model](const Texts& parameters) {
+  const auto problem_with = [model](const Texts& parameters) {
     return functions_of<double>(model, parameters).as<Capability::smooth>();
   };
   ProblemEntry e;
@@ -281,7 +281,7 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.step_map = [model](const Request& request, std::size_t) -> std::unique_ptr<StepMap> {
     if (!accepts(model.structure(), request.method)) return nullptr;
     if (model.structure().time) {
-      throw Error("found an H that depends on t; allowed H without t where single steps are measured");
+      throw Error("found an H that depends on t; single steps can be measured only for an H without t");
     }
     const Texts& parameters = request.parameters;
     return erased_step_map({functions_of<double>(model, parameters), functions_of<long double>(model, parameters),
@@ -295,19 +295,22 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
     return conditions.all();
   };
   const std::size_t degrees = model.degrees();
-  e.energy = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-    return face(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
+  e.energy = [problem_with, degrees](const Texts& parameters, const std::vector<double>& q,
+                                     const std::vector<double>& p) {
+    return problem_with(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
   };
-  e.gradient = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+  e.gradient = [problem_with, degrees](const Texts& parameters, const std::vector<double>& q,
+                                       const std::vector<double>& p) {
     Vector<double, dynamic> dq(degrees);
     Vector<double, dynamic> dp(degrees);
-    face(parameters).gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
+    problem_with(parameters).gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
     return EnergyGradient{{dq.begin(), dq.begin() + q.size()}, {dp.begin(), dp.begin() + q.size()}};
   };
-  e.regular = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+  e.regular = [problem_with, degrees](const Texts& parameters, const std::vector<double>& q,
+                                      const std::vector<double>& p) {
     Vector<double, dynamic> dq(degrees);
     Vector<double, dynamic> dp(degrees);
-    const auto problem = face(parameters);
+    const auto problem = problem_with(parameters);
     problem.gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
     double sum = abs(problem.energy(vector_of(q, degrees), vector_of(p, degrees)));
     for (std::size_t i = 0; i < dq.size(); ++i) sum += abs(dq[i]) + abs(dp[i]);
@@ -316,8 +319,8 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.invariant_sizes = [model](const Texts&, std::size_t) {
     return std::vector<std::size_t>(model.made()->invariants().size(), 1);
   };
-  e.start = [typed, face](const Request& request) {
-    return frame_of(start_of<double>(typed, face(request.parameters), request), typed.model.size());
+  e.start = [typed, problem_with](const Request& request) {
+    return frame_of(start_of<double>(typed, problem_with(request.parameters), request), typed.model.size());
   };
   if (model.structure().constraints > 0) {
     const auto bound = [model](const Texts& parameters) {
@@ -328,9 +331,10 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
     e.refused_start = [bound, degrees](const Texts& parameters, const std::vector<double>& q) -> std::string {
       const auto rows = constraint_gradients(bound(parameters), vector_of(q, degrees));
       if (!depend_on_each_other(rows)) return {};
-      return rows.size() == 1 ? "a constraint whose gradient vanishes at the start; allowed one with a gradient there"
-                              : "constraints whose gradients depend on each other at the start; allowed independent "
-                                "ones, fewer than coordinates";
+      return rows.size() == 1 ? "a constraint whose gradient vanishes at the start; allowed a constraint with a "
+                                "gradient other than 0 there"
+                              : "constraints whose gradients are linearly dependent at the start; allowed independent "
+                                "constraints, fewer than coordinates";
     };
     e.residuals = [bound, degrees](const Texts& parameters, const std::vector<double>& q,
                                    const std::vector<double>& p) {

@@ -1,8 +1,8 @@
-// Generalised coordinates Q of a constrained motion, from the parametrisation q = G(Q) of its manifold alone, by
+// Generalised coordinates Q of a constrained motion. They follow from the parametrisation q = G(Q) of the manifold by
 // differentiation:   [HLW2006, Sect. VII.1.2; Sonnleitner2010, p. 24, whose formula for p lacks M]
 //     P = G'^T p,   p = M G' A^-1 P,   A = G'^T M G',   H(Q, P) = P^T A^-1 P/2 + V(G(Q)).
 //
-// `Map` is a class with the numbers of generalised and of Cartesian coordinates and G for any number type:
+// `Map` is a class with the numbers of generalised and Cartesian coordinates and G for any number type:
 //     struct Circle {
 //       static constexpr std::size_t dimension = 1, space = 2;
 //       template <class S>
@@ -52,7 +52,7 @@ Vector<S, dynamic> listed(const Vector<S, N>& x) {
 }
 }  // namespace detail
 
-/// The Cartesian state of a generalised one. @param mass M
+/// The Cartesian state of a generalised state. @param mass M
 template <class Map, class R, class S>
 Start<S, Map::space> cartesian_state(const Map& map, const Matrix<R, Map::space>& mass,
                                      const Start<S, Map::dimension>& state) {
@@ -66,7 +66,7 @@ Start<S, Map::space> cartesian_state(const Map& map, const Matrix<R, Map::space>
   }
   return there;
 }
-/// P of Cartesian momenta at G(Q).
+/// P from Cartesian momenta at G(Q).
 template <class Map, class S>
 Vector<S, Map::dimension> generalised_momenta(const Map& map, const Vector<S, Map::dimension>& q,
                                               const Vector<S, Map::space>& p) {
@@ -76,14 +76,14 @@ Vector<S, Map::dimension> generalised_momenta(const Map& map, const Vector<S, Ma
   return all;
 }
 
-/// The motion of a problem p^T M^-1 p/2 + V(q) on the manifold, without constraints: a problem as any other.
+/// The motion of a problem p^T M^-1 p/2 + V(q) on the manifold, as a problem without constraints.
 template <class P, class Map>
 class Generalised {
  public:
   using Real = RealOf<P>;
   static constexpr std::size_t dimension = Map::dimension;
   static_assert(QuadraticKinetic<P>, "hamflow: generalised coordinates need T = p^T M^-1 p/2 with constant M");
-  static_assert(P::dimension == Map::space, "hamflow: G has to have as many values as the problem has coordinates");
+  static_assert(P::dimension == Map::space, "hamflow: G must have as many values as the problem has coordinates");
 
   Generalised(const P& problem, const Map& map)
       : problem_(problem), map_(map), mass_(inverse(inverse_mass_matrix(problem))) {}
@@ -95,7 +95,7 @@ class Generalised {
     const auto rates = multipliers(tangents, detail::with_matrix(mass_, tangents), momenta);
     return dot(momenta, rates) / Real(2) + problem_.potential(map_(q));
   }
-  /// The Cartesian state of a generalised one, and back for one whose Q is known.
+  /// Converts a generalised state to Cartesian coordinates and back; back needs Q.
   template <class S>
   Start<S, Map::space> to_cartesian(const Start<S, dimension>& state) const {
     return cartesian_state(map_, mass_, state);

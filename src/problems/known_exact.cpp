@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t points = 5;
 
-/// Starts and times 2^-58 apart, relative. All of q grow and all of p fall by one factor, so that a line through the
-/// centre stays one.
+/// States after starts and times that differ by 2^-58, relative. All of q increase and all of p decrease by the same
+/// factor, so that a line through the centre remains one.
 std::optional<std::array<LongState, points>> neighbours_of(const LongMotion& motion, const LongState& start,
                                                            long double t) {
   std::array<LongState, points> all;
@@ -30,7 +30,7 @@ std::optional<std::array<LongState, points>> neighbours_of(const LongMotion& mot
   return all;
 }
 
-/// The standard deviation of the noise of such values, from their third differences.
+/// The standard deviation of the noise in such values, from their third differences.
 long double noise_of(std::array<long double, points> values) {
   constexpr std::size_t order = 3;
   for (std::size_t k = 0; k < order; ++k) {

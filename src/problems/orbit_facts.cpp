@@ -1,4 +1,4 @@
-// What the effective potential tells, as entries of a summary.
+// Facts from the effective potential, as entries of a summary.
 #include <limits>
 
 #include "hamflow/problems/support/central_force.hpp"

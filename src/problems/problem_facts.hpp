@@ -1,5 +1,5 @@
-// What the catalogue knows of one problem in double beside its steps: asked a few times a run, and compiled with a
-// light optimisation, in the unit of the problem behind virtual calls.
+// The functions of a catalogue entry in double, except its steps. They are called a few times per run, and compiled
+// with light optimisation in the unit of the problem behind virtual calls.
 #pragma once
 
 #include "hamflow/detail/run/probe.hpp"
@@ -17,7 +17,7 @@ class ProblemFacts : ProblemStart<Family> {
   using In::vector_of;
 
  public:
-  /// All but how it is simulated.
+  /// The entry without its simulations.
   static ProblemEntry entry() {
     ProblemEntry e;
     e.info = P::info();
@@ -45,7 +45,8 @@ class ProblemFacts : ProblemStart<Family> {
         P::derive(spec.kind, Parameters<double>(spec.orbit), given);
         for (auto& [name, text] : all) {
           if (!given.has(name) || given.list(name).size() != 1) continue;
-          if (!(abs(given[name]) <= std::numeric_limits<double>::max())) continue;  // the start cannot be: it is told
+          if (!(abs(given[name]) <= std::numeric_limits<double>::max()))
+            continue;  // the start is impossible; this is reported elsewhere
           if (text.empty() || given[name] != evaluate_number<double>(list_parts(text)[0])) text = shortest(given[name]);
         }
       }

@@ -1,4 +1,4 @@
-// How a problem and its start are made from the texts of a request, in any number type.
+// Makes a problem and its start from the texts of a request, in any number type.
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"
@@ -13,7 +13,7 @@ struct ProblemStart {
   using P = Family<double>;
   static constexpr std::size_t n = P::dimension;
 
-  /// The problem; one of any size is told its number of coordinates.
+  /// The problem; a problem of any size receives its number of coordinates.
   template <class R>
   static Family<R> make(const Parameters<R>& parameters, [[maybe_unused]] std::size_t size) {
     if constexpr (n == dynamic) {
@@ -37,7 +37,7 @@ struct ProblemStart {
     }
   }
 
-  /// In the arithmetic of the run, with what follows from the start.
+  /// The parameters in the arithmetic of the run, including those that follow from the start.
   template <class R>
   static Parameters<R> parameters_of(const Request& request) {
     Parameters<R> parameters(request.parameters);
@@ -59,7 +59,7 @@ struct ProblemStart {
     return start_with<R>(request, R(0));
   }
 
-  /// @param free the component that is left to the energy, where one is
+  /// @param free the component that the energy determines, if any
   template <class R>
   static Start<R, n> start_with(const Request& request, const R& free) {
     const StartSpec& spec = request.start;
@@ -96,7 +96,7 @@ struct ProblemStart {
   }
 
   /// p = dL/dv for H at most quadratic in p: v = dH/dp(q, p) solved for p.
-  /// @param moved coordinates whose velocities are given; what is behind them, the time, moves by itself, with p = 0
+  /// @param moved number of coordinates with given velocities; the coordinates after them hold the time, with p = 0
   template <class R>
   static Vector<R, n> momenta_of(const Family<R>& problem, const Vector<R, n>& q, Vector<R, n> v,
                                  std::size_t moved = dynamic) {
@@ -120,8 +120,8 @@ struct ProblemStart {
       const Vector<R, n> p = solve(pp, rest);
       Vector<R, n> check = zero;
       gradient(problem, q, p, force_at_rest, check);
-      // Masses may differ by many powers of ten: what the velocities are made of is added up in the units of
-      // sqrt(mass) v. Where that is 1/epsilon times the velocities, they say nothing of the momenta.
+      // Masses may differ by many powers of ten, so the terms of the velocities are summed in units of sqrt(mass) v. If
+      // that sum is 1/epsilon times the velocities, these do not determine the momenta.
       const R epsilon = std::numeric_limits<R>::epsilon();
       R given(0);
       R terms(0);
@@ -138,7 +138,7 @@ struct ProblemStart {
       if (!(terms <= std::numeric_limits<R>::max()) || !(R(16) * epsilon * terms <= given)) {
         throw Error("velocities do not determine the momenta: the mass matrix is singular at this start; give p");
       }
-      if (!is_linear) throw Error("velocities determine momenta only where H is quadratic in p; give p");
+      if (!is_linear) throw Error("velocities determine momenta only if H is quadratic in p; give p");
       return p;
     }
   }

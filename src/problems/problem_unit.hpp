@@ -1,5 +1,5 @@
-// The kernels that are compiled for one problem. The build makes one translation unit of it per file of problems/ and
-// of problems/potentials/, and one of erased_unit.hpp: a new problem is a new file and nothing else.
+// The kernels that are compiled for one problem. The build makes one translation unit of it, and one of
+// erased_unit.hpp, for each file of problems/ and problems/potentials/, so that a new problem needs only a new file.
 #pragma once
 
 #include "hamflow/arithmetic/lattice.hpp"
@@ -44,8 +44,8 @@ class ProblemUnit : ProblemStart<Family> {
     auto method = recipe.template bind<Family<R>, A>(problem);
     using Stepper = decltype(method);
     if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
-    // Without a probe where the step runs on several threads and the probe would run on one; elsewhere it is not worth
-    // the compiler's time.
+    // There is no probe if the step runs on several threads, because the probe would run on one; in other cases it is
+    // not worth the compile time.
     if constexpr (A::exact_undo && n == dynamic) {
       if (!request.watch) {
         return std::make_unique<SimulationOf<Family<R>, Stepper, A, NoProbe>>(problem, method, s.q, s.p, h,
@@ -56,7 +56,7 @@ class ProblemUnit : ProblemStart<Family> {
                                                                  arithmetic_of<A>(request));
   }
 
-  /// Null where the request has no typed kernel: it then runs behind virtual calls, and what can be recorded is.
+  /// Null if there is no typed kernel for the request: it then runs behind virtual calls, recorded if possible.
   static std::unique_ptr<Simulation> simulate(const Request& request) {
     return visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
       if constexpr (!M::template accepts<P> || !has_typed_kernel<M>()) {
@@ -70,7 +70,7 @@ class ProblemUnit : ProblemStart<Family> {
         }
         if constexpr (!is_recorded<M>()) {
           return request.arithmetic == "double" ? build<Plain<double>>(request, recipe) : nullptr;
-        } else if constexpr (n == dynamic && M::bijective) {  // of more bodies than fit into straight code
+        } else if constexpr (n == dynamic && M::bijective) {  // for more bodies than straight-line code can hold
           if (request.arithmetic == "double") return build<Plain<double>>(request, with_shape_at_run_time(recipe));
           if (request.arithmetic == "compensated") {
             return build<Compensated<double>>(request, with_shape_at_run_time(recipe));

@@ -1,4 +1,4 @@
-// What a start leaves to its energy, in every number type of a run.
+// The component of a start that the energy determines, in every number type of a run.
 #include "start_of_energy.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ bool is_number(const R& x) {
   return x - x == R(0);
 }
 
-/// Whether H(x) = c + b x + a x^2 to rounding, at 16 points of each power of 2 from 2^-20 to 2^20, of both signs: what
-/// a smooth H has between them shows in the last digits far around.
+/// Whether H(x) = c + b x + a x^2 to rounding, at 16 points for each power of 2 from 2^-20 to 2^20, of both signs.
+/// Other terms of a smooth H would show in the last digits at many of these points.
 template <class R>
 bool is_parabola(const EnergyLine<R>& line, const R& c, const R& b, const R& a) {
   const R tolerance = R(10000) * std::numeric_limits<R>::epsilon();
@@ -53,7 +53,7 @@ R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
   EnergyLine<R> line = without_walls;
   if (const auto walls = request.walls) {
     const R of_walls = soft_energy<R>(*walls, line.q);
-    // A start beyond a wall, where there is no energy, is refused with the name of the wall.
+    // A start beyond a wall has no energy; it is refused elsewhere, with the name of the wall.
     if (is_number(of_walls))
       line.energy = [&without_walls, of_walls](const R& x) { return R(without_walls.energy(x) + of_walls); };
   }
@@ -61,7 +61,7 @@ R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
   const bool largest = std::find(given.begin(), given.end(), largest_root) != given.end();
   const R level = evaluate_number<R>(spec.energy);
 
-  // H = H(0) + b x + a x^2, where that holds.
+  // H = H(0) + b x + a x^2, if that holds.
   const R a = line.curvature(R(0)) / R(2);
   const R b = line.slope(R(0));
   const R at_base = line.energy(R(0));
@@ -82,11 +82,11 @@ R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
   if (quadratic) {
     if (root) return *root;
     const R extreme = at_base - b * b / (R(4) * a);
-    throw NoStart("no " + open + " has it: along " + open + " H is at " + (a > R(0) ? "least " : "most ") +
+    throw NoStart("no " + open + " has this energy: along " + open + " H is at " + (a > R(0) ? "least " : "most ") +
                   shortest(static_cast<double>(extreme)));
   }
-  // H(x) is the energy to the rounding of x and of the terms of H, which are as large as H is between 0 and x. The
-  // rounding of a large x alone excuses no more than a million roundings of H.
+  // H(x) equals the energy up to the rounding of x and of the terms of H, which are as large as H between 0 and x. The
+  // rounding of a large x may account for at most 10^6 roundings of H.
   const auto has_energy = [&](const R& x) {
     const R found = line.energy(x);
     R size = abs(found) + abs(level);
@@ -103,15 +103,15 @@ R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
   const OuterRoot outer = outer_root(above, largest, [&](double x) { return has_energy(refined(x)); });
   if (!outer.told) {
     throw NoStart(std::string("no ") + (largest ? "largest" : "smallest") + " root along " + open +
-                  " can be told: H oscillates, or stays at the energy, as far as it is looked at; give " + open +
+                  " was found: H oscillates, or equals the energy, in the whole range that was searched; give " + open +
                   " as a number");
   }
   if (outer.x) {
     const R x = refined(*outer.x);
     if (has_energy(x)) return x;
   }
-  throw NoStart("no " + open + " is found to have it: H - energy has no zero along " + open + " among |" + open +
-                "| up to 2^100, but for dips between the points of the search");
+  throw NoStart("no " + open + " with this energy was found: H - energy has no zero for |" + open +
+                "| up to 2^100, except perhaps between two points of the search");
 }
 
 template double left_to_energy(const EnergyLine<double>&, const Request&);

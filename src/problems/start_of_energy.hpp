@@ -1,6 +1,6 @@
-// A start of given energy: one component of p, or of v, is left open, and is the largest or the smallest x with
-// H(q, p(x)) = E. Where H is at most quadratic in x, as with every mechanical system, that is a quadratic equation,
-// solved in the arithmetic of the run; else the outermost zero that a search finds in double is refined.
+// A start of given energy: one component of p or v is open, and is the largest or the smallest x with H(q, p(x)) = E.
+// If H is at most quadratic in x, as for mechanical systems, this is a quadratic equation, solved in the arithmetic of
+// the run. Otherwise a search in double finds the outermost zero, which is then refined.
 #pragma once
 
 #include <functional>
@@ -11,19 +11,19 @@
 
 namespace hamflow {
 
-/// H along the line of states on which the open component is x: a problem and its start are seen through it, so that
-/// the search is compiled once for each number type.
+/// H as a function of the open component x. The search uses only this interface, so that it is compiled once for each
+/// number type.
 template <class R>
 struct EnergyLine {
   std::function<R(const R& x)> energy;
   std::function<R(const R& x)> slope;      // dH/dx
-  std::function<R(const R& x)> curvature;  // d^2H/dx^2, as H_pp has it
+  std::function<R(const R& x)> curvature;  // d^2H/dx^2, from H_pp
   bool is_parabola;                        // H is known to be quadratic in x
-  std::vector<R> q;                        // which x does not move
+  std::vector<R> q;                        // does not depend on x
 };
 
-/// The component that a start leaves to the energy; soft walls of the request are a term of H.
-/// @param line of the problem without walls   @throws NoStart when no value has that energy
+/// The open component; soft walls of the request are a term of H.
+/// @param line of the problem without walls @throws NoStart if no value has that energy
 template <class R>
 R left_to_energy(const EnergyLine<R>& line, const Request& request);
 
@@ -52,7 +52,8 @@ R curvature_along(const P& problem, const Start<R, N>& at, const Vector<R, N>& d
 
 }  // namespace detail
 
-/// @param at the start with a value for the open component; q and p are linear in it. Called as long as the line lives.
+/// @param at the start with a value for the open component; q and p are linear in it. Called as long as the line
+/// exists.
 template <class P, class At, class R = typename P::Real>
 EnergyLine<R> energy_line(const P& problem, const At& at) {
   const auto base = at(R(0));

@@ -1,4 +1,4 @@
-// What of a problem in the catalogue depends on the types of methods.
+// The part of a catalogue entry that depends on the types of methods.
 #pragma once
 
 #include "hamflow/run/catalog.hpp"

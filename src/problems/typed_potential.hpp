@@ -1,5 +1,5 @@
-// A typed V(r) as a central potential (detail/problems/potential.hpp): what is found from the effective potential,
-// turning points, starts by energy and the facts of an orbit, is found for it as for those that are built in.
+// A typed V(r) as a central potential (detail/problems/potential.hpp), so that turning points, starts by energy and
+// orbit facts follow from the effective potential as for built-in potentials.
 #pragma once
 
 #include "hamflow/detail/formula/bound_model.hpp"
@@ -10,7 +10,7 @@ namespace hamflow {
 template <class R>
 class TypedPotential {
  public:
-  /// @param model of p_r^2/2 + V(r) in the one coordinate r
+  /// @param model of p_r^2/2 + V(r) in the coordinate r
   TypedPotential(std::shared_ptr<const formula::Model> model, const Parameters<R>& parameters)
       : model_(std::move(model), parameters) {}
 

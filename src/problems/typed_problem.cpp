@@ -23,8 +23,8 @@ ParameterInfo parameter_info(const std::string& name, const std::string& text) {
   return info;
 }
 
-/// Of the problem `formula`.
-/// @param coordinates written out
+/// The entry of the problem `formula`.
+/// @param coordinates with x[n] expanded
 ProblemEntry formula_entry(const Choices& choices, const FormulaTexts& texts, const EntryModel& model,
                            const std::vector<std::string>& coordinates) {
   ProblemEntry entry = entry_of_model(model);
@@ -96,7 +96,7 @@ FormulaTexts example_texts() {
   return texts;
 }
 
-/// The example has a region, on which `verify` measures, by whatever way it is found.
+/// The entry of typed texts. If they are those of the example, it has the region on which `verify` measures.
 ProblemEntry entry_of_choices(const std::string& name, const Choices& choices) {
   if (name != FormulaKeys::problem) return central_entry(choices);
   if (choices == formula_choices(example_texts())) return formula_example();
@@ -127,7 +127,7 @@ const std::shared_ptr<const formula::Model>& EntryModel::made() const {
   std::call_once(late_->once, [this] {
     auto model = std::make_shared<const formula::Model>(late_->texts);
     if (all_of(model->structure()) != all_of(structure()) || model->momenta() != momenta()) {
-      throw std::logic_error("hamflow: " + model->label() + " is not what it is declared to be");
+      throw std::logic_error("hamflow: " + model->label() + " does not have its declared structure");
     }
     late_->model = std::move(model);
   });

@@ -10,13 +10,13 @@ namespace hamflow {
 namespace {
 struct Frames {
   Frame of_step;
-  Frame between;  // of a partial step
+  Frame between;  // for the state after a partial step
 };
 
-/// Calls the observers that are due at the simulation's step, in their order.
-Outcome wake(const Simulation& simulation, std::span<Observer* const> observers, Frames& frames) {
-  // A partial step that was given up would count as one that failed.
-  const StopQuestion::Silence silence;
+/// Calls the observers that are due at the present step, in order.
+Outcome call_due_observers(const Simulation& simulation, std::span<Observer* const> observers, Frames& frames) {
+  // A partial step that is cancelled would count as failed.
+  const StopQuestion::Suspended suspended;
   const std::int64_t now = simulation.step();
   bool looked = false;
   Outcome outcome = Outcome::done;
@@ -39,11 +39,11 @@ Outcome wake(const Simulation& simulation, std::span<Observer* const> observers,
   return outcome;
 }
 
-/// One observer of every step that needs sums alone is spared the steps, where the simulation adds by itself.
-class SparedObserver {
+/// Takes one observer of every step that needs only sums out of the loop, if the simulation can add the sums itself.
+class SummingObserver {
  public:
-  /// @param observers have seen the present state
-  SparedObserver(Simulation& simulation, std::span<Observer* const> observers)
+  /// @param observers that have observed the present state
+  SummingObserver(Simulation& simulation, std::span<Observer* const> observers)
       : simulation_(simulation), others_(observers.begin(), observers.end()) {
     for (auto each = others_.begin(); each != others_.end(); ++each) {
       spared_ = dynamic_cast<SummedSteps*>(*each);
@@ -56,14 +56,14 @@ class SparedObserver {
       return;
     }
   }
-  ~SparedObserver() {
+  ~SummingObserver() {
     if (spared_ != nullptr) (void)simulation_.add_to_sums({}, {});
   }
-  SparedObserver(const SparedObserver&) = delete;
-  SparedObserver& operator=(const SparedObserver&) = delete;
+  SummingObserver(const SummingObserver&) = delete;
+  SummingObserver& operator=(const SummingObserver&) = delete;
 
   std::span<Observer* const> others() const { return others_; }
-  /// Before anybody else sees the state, or asks what was seen.
+  /// To be called before another observer sees the state or reads the sums.
   void reach(Frame& frame) {
     if (spared_ == nullptr) return;
     simulation_.look(frame);
@@ -86,21 +86,22 @@ std::int64_t earliest_due(std::int64_t from, std::int64_t last, std::span<Observ
 Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* const> observers,
             const std::function<bool(std::int64_t)>& pulse) {
   using Clock = std::chrono::steady_clock;
-  constexpr double wanted_seconds = 0.02;  // between looks at the clock: quick to stop, far too rare to cost anything
-  std::int64_t block = 1;                  // a step in many digits can take a second
+  constexpr double wanted_seconds =
+      0.02;                // between readings of the clock: short enough to stop quickly, long enough to cost nothing
+  std::int64_t block = 1;  // start with 1, since a step in many digits can take a second
   std::int64_t since_pulse = 0;
   Clock::time_point pulsed = Clock::now();
   Frames frames;
-  if (const Outcome first = wake(simulation, observers, frames); first != Outcome::done) return first;
-  SparedObserver spared(simulation, observers);
+  if (const Outcome first = call_due_observers(simulation, observers, frames); first != Outcome::done) return first;
+  SummingObserver summing(simulation, observers);
   while (simulation.step() < last_step) {
     const std::int64_t now = simulation.step();
-    const std::int64_t target = std::min(earliest_due(now + 1, last_step, spared.others()), now + block - since_pulse);
+    const std::int64_t target = std::min(earliest_due(now + 1, last_step, summing.others()), now + block - since_pulse);
     Outcome outcome = simulation.advance(target - now);
     since_pulse += target - now;
-    spared.reach(frames.of_step);
+    summing.reach(frames.of_step);
     if (outcome == Outcome::done) {
-      outcome = wake(simulation, spared.others(), frames);
+      outcome = call_due_observers(simulation, summing.others(), frames);
     } else if (is_failure(outcome)) {
       for (Observer* observer : observers) {
         if (observer->observe_failed_step() == Verdict::stop) outcome = Outcome::stopped;

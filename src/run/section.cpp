@@ -10,7 +10,7 @@ namespace hamflow {
 
 namespace {
 
-/// Of a polynomial through the values at 0 .. 4.
+/// The weights that evaluate the polynomial through the values at 0 .. 4.
 std::array<double, 5> weights_at(double at) {
   std::array<double, 5> weights{};
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -28,11 +28,12 @@ std::int64_t bounces_of(const Simulation& simulation) {
   return all;
 }
 
-/// Whether a step enters or leaves where the expression has values, as sqrt(q1) has none below 0. That is no change of
-/// sign, but there may be one in the part of the step that has them.
+/// Whether a step enters or leaves the domain of the expression, as q1 = 0 for sqrt(q1). This is not a change of sign,
+/// but the part of the step within the domain may have one.
 bool passes_an_edge(double before, double now) { return std::isnan(before) != std::isnan(now); }
 
-/// What |x| of a touch is at most, as a part of its size in the step: the rounding of x and of the place of its least.
+/// The largest |x| of a touch, relative to the size of x in the step: the rounding of x and of the place of its
+/// minimum.
 constexpr double touch = 0x1p-44;
 
 }  // namespace
@@ -54,18 +55,18 @@ bool SectionSearch::may_hide_zeros(double before, double now, bool bounced) {
   last_change_ = bounced ? unknown : change;
   if (std::isnan(most)) return !std::isnan(change);
   if (!(most > 0)) return false;
-  // A parabola of that second derivative through both ends has two zeros between them.
+  // A parabola with that second derivative through both ends may have two zeros between them.
   if (before == 0 || now == 0 || (before > 0) == (now > 0)) {
     return std::sqrt(std::abs(before)) + std::sqrt(std::abs(now)) <= std::sqrt(most / 2);
   }
-  return std::abs(change) <= most / 2;  // x turns twice in between
+  return std::abs(change) <= most / 2;  // x has two extrema in between
 }
 
 void SectionSearch::locate(const Simulation& before_step, double before, double now) {
   locate(before_step, Change{0, 1, before, now});
 }
 
-/// At theta = 1 the run's own next state is meant, which has the other sign.
+/// At theta = 1 the next state of the run is used, which has the other sign.
 void SectionSearch::locate(const Simulation& before_step, const Change& given) {
   Change change = given;
   if (passes_an_edge(given.before, given.now)) {
@@ -75,7 +76,7 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
     double& x = enters ? change.before : change.now;
     inside = enters ? given.to : given.from;
     x = enters ? given.now : given.before;
-    for (int i = 0; i < 60 && !failed_; ++i) {  // as near to the edge as theta has digits
+    for (int i = 0; i < 60 && !failed_; ++i) {  // bisects to the digits of theta
       const double middle = (outside + inside) / 2;
       const double there = sample(before_step, middle).x;
       if (std::isnan(there)) {
@@ -90,9 +91,9 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
   SectionPoint best;
   best.residual = std::numeric_limits<double>::infinity();
   const auto look = [&](double theta) {
-    if (theta != theta) return 0.0;  // beside a pole the next guess is none
+    if (theta != theta) return 0.0;  // near a pole the next guess may be NaN
     failed_ = failed_ || before_step.look_part(theta, partial_) != Outcome::done;
-    if (failed_) return 0.0;  // there is no state to look at
+    if (failed_) return 0.0;  // there is no state
     const double x = distance(partial_);
     if (std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x), partial_.digits};
     return x;
@@ -101,7 +102,7 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
                                       change.before, change.now);
   (void)look(theta);
   if (failed_) return;
-  // What is continuous has come down to its rounding, a jump or a pole has not.
+  // At a zero of a continuous expression x is at rounding level; at a jump or a pole it is not.
   constexpr double at_most = 0x1p-10;
   if (!(best.residual <= at_most * std::max(std::abs(change.before), std::abs(change.now)))) {
     ++jumps_;
@@ -111,8 +112,8 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
   take(best);
 }
 
-/// Of a run beyond double: by the secant method from the zero in double, in the digits of the run, until it comes no
-/// nearer. Each step doubles the digits nearly.
+/// For a run with more digits than double: refines the zero found in double by the secant method, in the digits of the
+/// run, until there is no improvement. Each step nearly doubles the digits.
 void SectionSearch::refine(const Simulation& before_step, SectionPoint& point) const {
   constexpr int most_looks = 64;
   std::size_t longest = point.digits.time.size();
@@ -156,12 +157,13 @@ void SectionSearch::refine(const Simulation& before_step, SectionPoint& point) c
 
 std::string jumps_text(std::int64_t jumps) {
   return (jumps == 1 ? std::string("1 change") : std::to_string(jumps) + " changes") + " of sign " +
-         (jumps == 1 ? "was no zero" : "were no zeros") + ": the expression jumps there, or has a pole";
+         (jumps == 1 ? "was not a zero" : "were not zeros") + ": the expression jumps or has a pole there";
 }
 
 std::string SectionSearch::message() const {
   std::string all = jumps_ > 0 ? jumps_text(jumps_) : std::string();
-  if (failed_) all += (all.empty() ? "" : "; ") + std::string("a partial step failed: no points after it were sought");
+  if (failed_)
+    all += (all.empty() ? "" : "; ") + std::string("a partial step failed, and points after it were not searched for");
   return all;
 }
 
@@ -206,8 +208,8 @@ void SectionSearch::complete(const Simulation& before_step, Piece& piece) {
   }
 }
 
-/// Whether a sum of five points is a sixth one, to such a part of what they range over. What rounding, or a loose
-/// tolerance, makes of numbers that stand still is nothing.
+/// Whether a weighted sum of five points equals a sixth one, relative to their range. Changes by rounding or by a loose
+/// tolerance of numbers that are otherwise constant are ignored.
 bool SectionSearch::has(const Piece& piece, const std::array<double, 5>& weights, const Sample& sample,
                         double parts) const {
   const auto range_of = [&](const auto& number) {
@@ -225,11 +227,11 @@ bool SectionSearch::has(const Piece& piece, const std::array<double, 5>& weights
     const auto [low, high] = range_of(number);
     const double size = std::max(std::abs(low), std::abs(high));
     const double enough = std::max({(high - low) / parts, 1e-6 * most, 1e-9 * size});
-    return std::abs(number(sample) - sum) > enough;  // false of what is no number: halving makes it none
+    return std::abs(number(sample) - sum) > enough;  // false for NaN, which bisection does not remove
   };
   const std::size_t n = sample.state.size() / 2;
   for (const std::size_t first : {std::size_t{0}, n}) {
-    double most = 0;  // of the one that moves most
+    double most = 0;  // range of the number that moves most
     for (std::size_t i = first; i < first + n; ++i) {
       const auto [low, high] = range_of([i](const Sample& each) { return each.state[i]; });
       most = std::max(most, high - low);
@@ -241,18 +243,18 @@ bool SectionSearch::has(const Piece& piece, const std::array<double, 5>& weights
   return !section_.expression || !is_off([](const Sample& each) { return each.x; }, 0);
 }
 
-/// Whether the middle one of five points is where a cubic through the others has it, and a point that is not in step
-/// with them where a polynomial through all of them has it: then it is known what happens between them.
+/// Whether the middle one of five points lies on a cubic through the others, and another point, at a ratio that
+/// resonates with none of them, on the polynomial through all five. Then the motion between the points is known.
 bool SectionSearch::is_cubic(const Simulation& before_step, const Piece& piece, double parts) {
   if (!has(piece, {-1.0 / 6, 4.0 / 6, 0, 4.0 / 6, -1.0 / 6}, piece[2], parts)) return false;
-  const double at = 0.3819660112501051;  // by the golden section
+  const double at = 0.3819660112501051;  // the golden section
   const Sample other = sample(before_step, piece[0].theta + at * (piece[4].theta - piece[0].theta));
   return failed_ || has(piece, weights_at(4 * at), other, parts);
 }
 
 bool SectionSearch::is_long(const Simulation& before_step) {
   if (failed_) return false;
-  constexpr std::size_t most_numbers = 20000;  // of larger systems this would take the memory of several runs
+  constexpr std::size_t most_numbers = 20000;  // larger systems would need the memory of several runs
   std::array<Sample, 5> points;
   for (std::size_t k = 0; k < points.size(); ++k) {
     points[k] = sample(before_step, static_cast<double>(k) / 4);
@@ -264,7 +266,7 @@ bool SectionSearch::is_long(const Simulation& before_step) {
     return !failed_ && !is_cubic(before_step, half, 256) && !failed_;
   };
   const bool found = !failed_ && half_is_long(0) && half_is_long(2);
-  failed_ = false;  // a point that nobody has asked for
+  failed_ = false;  // the caller does not need this point
   return found;
 }
 
@@ -273,8 +275,8 @@ void SectionSearch::note_change(double from, double to, double before, double no
   if (is_change || passes_an_edge(before, now)) changes_.push_back({from, to, before, now});
 }
 
-/// Looks for two crossings, or a touch, between two samples of the same sign, where a polynomial through all five comes
-/// near 0.
+/// Searches for two crossings, or a touch, between two samples of the same sign, if the polynomial through all five
+/// comes near 0.
 void SectionSearch::see_between(const Simulation& before_step, const Piece& piece, std::size_t k) {
   const Sample& left = piece[k];
   const Sample& right = piece[k + 1];
@@ -304,13 +306,13 @@ void SectionSearch::see_between(const Simulation& before_step, const Piece& piec
   if (!(least <= size / 64)) return;
   const auto falls_from = [&](double end, double inwards) { return polynomial(end + inwards) < polynomial(end); };
   if (nearest == 0 && !falls_from(static_cast<double>(k), 0x1p-12)) {
-    // A touch on the step itself, up to rounding: x came from the same side and goes back.
+    // A touch at the end of the step, up to rounding: x came from the same side and goes back.
     const bool at_start = left.theta == 0 && before_last_ * sign > left.x * sign;
     if (at_start && left.x * sign <= touch * size) note_touch(0, sign);
     return;
   }
   if (nearest == points && !falls_from(static_cast<double>(k + 1), -0x1p-12)) return;
-  // Golden section; 40 times leave 10^-9 of the place, and a square of that of x.
+  // Golden section search; 40 iterations leave an error of 10^-9 in the place and of its square in x.
   const double width = (right.theta - left.theta) / points;
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double from = left.theta + std::max(nearest - 1, 0) * width;
@@ -351,7 +353,7 @@ void SectionSearch::see(const Simulation& before_step, Piece& piece, int depth) 
   constexpr int most_looks = 4096;
   if (failed_) return;
   if (depth == deepest || looks_ > most_looks || is_cubic(before_step, piece, 64)) {
-    // A bounce, a kink or a jump is no cubic however near it is seen.
+    // A bounce, a kink or a jump is not cubic on any scale.
     too_coarse_ = too_coarse_ || (looks_ > most_looks && depth < deepest);
     for (std::size_t k = 0; k + 1 < piece.size(); ++k) see_between(before_step, piece, k);
     return;
@@ -374,7 +376,7 @@ void SectionSearch::locate_all(const Simulation& before_step, double before, con
     if (!failed_) whole[k] = sample(before_step, static_cast<double>(k) / 4);
   }
   if (failed_) return;
-  // A flight that was given up, as at walls that reject steps, is none into which the run went.
+  // The run did not follow a path that walls rejected.
   const Sample end = sample_of(1, frame);
   bool is_that_of_the_run = true;
   for (std::size_t i = 0; i < end.state.size(); ++i) {
@@ -419,8 +421,9 @@ Verdict SectionFinder::observe(const Frame& frame) {
   }
   const long long work = frame.effort.force + frame.effort.gradient;
   const bool first = !begun_;
-  const bool stepped = !first && frame.step > copy_->step();  // a run that goes on shows the state that it has again
-  // One sub-step is as many evaluations as a series has terms, or one and a half times the order, the stages of dop853.
+  const bool stepped = !first && frame.step > copy_->step();  // a continued run shows its present state again
+  // One sub-step costs as many evaluations as a series has terms, or one and a half times the order for the stages of
+  // dop853.
   const std::int64_t bounces = bounces_of(simulation_);
   const bool bounced = bounces != bounces_;
   const bool is_long = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
@@ -444,7 +447,7 @@ Verdict SectionFinder::observe(const Frame& frame) {
   return Verdict::go_on;
 }
 
-/// A copy of the simulation is a copy of its bits, wherever it was taken.
+/// The copy of the simulation is restored by copying the simulation, which has the same bits.
 void SectionFinder::archive(Reader& ar) {
   fields(ar);
   copy_ = begun_ ? simulation_.clone() : nullptr;

@@ -16,7 +16,7 @@ void append(std::vector<std::string>& all, const StateNames& names) {
   all.insert(all.end(), names.p.begin(), names.p.end());
 }
 
-/// The names that a state has, then the time, then parameters with their values, and the texts of these: k, masses[1].
+/// The names of the state, then the time, then parameters (k, masses[1]) with their values and texts.
 FormulaSymbols symbols_of(const ProblemEntry& problem, const Texts& parameters, std::size_t size, bool& numbered,
                           std::vector<double>& values, std::vector<std::string>& texts) {
   FormulaSymbols symbols{.names = {}, .known = {}, .what = "coordinates, momenta and parameters"};
@@ -52,7 +52,7 @@ FormulaSymbols symbols_of(const ProblemEntry& problem, const Texts& parameters, 
 struct StateExpression::Read {
   std::string text;
   std::size_t size = 0;
-  std::vector<double> parameters;  // behind q, p, q and p by number where they have two names, and t
+  std::vector<double> parameters;  // after q, p, the numbered names of q and p if they have other names, and t
   bool numbered = false;
   Formula formula;
   formula::BoundCode<double> code;
@@ -135,7 +135,7 @@ ExpressionInDigits expression_in_digits(const std::string& text, const ProblemEn
                                         std::size_t size) {
   bool numbered = false;
   std::vector<double> rounded;
-  std::vector<std::string> texts;  // of the parameters
+  std::vector<std::string> texts;  // texts of the parameters
   const FormulaSymbols symbols = symbols_of(problem, parameters, size, numbered, rounded, texts);
   const std::size_t of_state = (numbered ? 4 : 2) * size;
   return [formula = parse_formula(text, symbols), texts, of_state, size](const FrameDigits& digits) {

@@ -30,7 +30,7 @@ std::optional<Program> with_sums(const Program& program, std::span<const std::si
     const auto place = static_cast<std::uint32_t>(all.outputs.size());
     const Operand sum{Operand::Kind::carried, place};
     const Operand lost{Operand::Kind::carried, place + 1};
-    // The error of a sum, the same number as StepSum has without a branch. [Knuth1997, 4.2.2]
+    // The rounding error of a sum, without a branch; the same number as in StepSum. [Knuth1997, 4.2.2]
     const Operand next = append(I::add, sum, *x);
     const Operand part = append(I::subtract, next, sum);
     const Operand of_sum = append(I::subtract, sum, append(I::subtract, next, part));

@@ -14,26 +14,29 @@ const WallKeys& wall_keys() {
     WallKeys k{
         .wall_rule = {.name = "wall_rule",
                       .default_value = wall_rules().front(),
-                      .meaning = "event: the time of the bounce is located; mirror: each drift is reflected; reject: "
-                                 "a step that leaves is not taken; soft: a term of V",
+                      .meaning = "event: locate the time of each bounce; mirror: reflect each drift; reject: discard a "
+                                 "step that ends outside and reverse the momentum; soft: add a repulsive term to V",
                       .type = OptionType::word,
                       .words = wall_rules(),
                       .condition = "with walls"},
         .strength = {.name = "strength",
                      .default_value = "1",
-                     .meaning = "k of the force -k x/(1 - x^2)^e, x from -1 to 1 between the walls",
+                     .meaning = "strength k of the force -k x/(1 - x^2)^e, where x goes from -1 to 1 between the walls",
                      .range = Range::positive,
                      .condition = "with wall_rule = \"soft\""},
         .exponent = {.name = "exponent",
                      .default_value = "2",
-                     .meaning = "e of that force, at least 1",
+                     .meaning = "exponent e of that force, at least 1",
                      .range = {.least = 1},
                      .condition = "with wall_rule = \"soft\""},
-        .coordinate = {.name = "coordinate", .meaning = "its name", .type = OptionType::word, .required = true},
-        .min = {.name = "min", .meaning = "the wall below", .unset = "none", .example = "-1"},
-        .max = {.name = "max", .meaning = "the wall above", .unset = "none", .example = "1"}};
+        .coordinate = {.name = "coordinate",
+                       .meaning = "name of the coordinate",
+                       .type = OptionType::word,
+                       .required = true},
+        .min = {.name = "min", .meaning = "position of the lower wall", .unset = "none", .example = "-1"},
+        .max = {.name = "max", .meaning = "position of the upper wall", .unset = "none", .example = "1"}};
     k.walls = {.name = "walls",
-               .meaning = "a list of intervals of coordinates, [{ coordinate, min, max }]",
+               .meaning = "walls as a list of intervals, [{ coordinate, min, max }]",
                .type = OptionType::table,
                .unset = "none",
                .keys = {k.coordinate, k.min, k.max}};

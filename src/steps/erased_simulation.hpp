@@ -154,7 +154,7 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
   if constexpr (!std::is_same_v<R, double>) {
     if (request.method.name == ExtrapolatedMidpoint::name) {
       const double tolerance = number_value(request.method.options.at(tolerance_option));
-      return detail::visit_face<Result, ExtrapolatedMidpoint, 0>(
+      return detail::visit_capability_set<Result, ExtrapolatedMidpoint, 0>(
           run.functions.capability, ExtrapolatedMidpoint{{.tolerance = tolerance}}, simulate);
     }
   }
@@ -178,7 +178,7 @@ template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
   if constexpr (std::is_same_v<R, Mp>) {
     ErasedRun<R> asking = run;
-    asking.functions.plain = AskingFunctions<R>::asking(run.functions.plain);
+    asking.functions.plain = InterruptibleFunctions<R>::asking(run.functions.plain);
     return simulate_asked(asking, request);
   } else {
     return simulate_asked(run, request);

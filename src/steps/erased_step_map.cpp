@@ -11,7 +11,7 @@ namespace hamflow {
 
 namespace {
 template <Capability c>
-struct Faces {
+struct ErasedWith {
   template <class R>
   using Of = Erased<R, c>;
 };
@@ -27,7 +27,7 @@ TangentSteps tangents_of(const ErasedFunctions<double>& functions, const Recipe&
   });
 }
 
-/// As few faces as there are kinds of flows, whatever the methods take.
+/// As few capability sets as there are kinds of flows, whatever the methods take.
 template <Capability c>
 constexpr Capability flow_face = includes(c, Capability::constrained) ? c : Capability::smooth;
 
@@ -69,7 +69,7 @@ std::unique_ptr<StepMap> map_without_walls(const ErasedProblem& problem, const M
       problem.in_double.capability, problem.in_double.size, method,
       [&]<Capability c, class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
         const auto make = [&]<class R>() { return problem.in<R>().template as<c>(); };
-        auto map = std::make_unique<StepMapOf<Faces<c>::template Of, Recipe, Beyond::given>>(
+        auto map = std::make_unique<StepMapOf<ErasedWith<c>::template Of, Recipe, Beyond::given>>(
             make, recipe,
             GivenMaps{simulations(problem.in_double, method), flow_of<c>(problem.in_long),
                       steps_in_quad(problem.in_quad, method), flow_of<c>(problem.in_quad),

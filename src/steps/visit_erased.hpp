@@ -10,12 +10,12 @@
 namespace hamflow {
 
 namespace detail {
-/// The faces of a recipe, the preferred one first: those that it declares, or the one with the fewest capabilities that
+/// The sets of a recipe, the preferred one first: those that it declares, or the one with the fewest capabilities that
 /// it accepts.
 template <class M>
-constexpr auto faces_of() {
-  if constexpr (requires { M::faces; }) {
-    return std::to_array(M::faces);
+constexpr auto capability_sets_of() {
+  if constexpr (requires { M::capability_sets; }) {
+    return std::to_array(M::capability_sets);
   } else if constexpr (M::template accepts<Erased<double, Capability::smooth>>) {
     // Derivatives come in two parts where H has two.
     return std::array{Capability::separable, Capability::smooth};
@@ -28,18 +28,18 @@ constexpr auto faces_of() {
 
 /// The result is named: clang++ 14, where it has to compile f to find out, loses some of what f needs.
 template <class Result, class M, std::size_t k, class F>
-Result visit_face(Capability offered, const M& recipe, F&& f) {
-  constexpr auto faces = faces_of<M>();
-  static_assert(M::template accepts<Erased<double, faces[k]>>, "hamflow: a recipe has to accept its faces");
-  if constexpr (k + 1 < faces.size()) {
-    if (!includes(offered, faces[k])) return visit_face<Result, M, k + 1>(offered, recipe, f);
+Result visit_capability_set(Capability offered, const M& recipe, F&& f) {
+  constexpr auto sets = capability_sets_of<M>();
+  static_assert(M::template accepts<Erased<double, sets[k]>>, "hamflow: a recipe has to accept its sets");
+  if constexpr (k + 1 < sets.size()) {
+    if (!includes(offered, sets[k])) return visit_capability_set<Result, M, k + 1>(offered, recipe, f);
   }
-  return f.template operator()<faces[k]>(recipe);
+  return f.template operator()<sets[k]>(recipe);
 }
 }  // namespace detail
 
-/// Calls f.operator()<face>(recipe) with the first face of the recipe that the problem offers. cg(1) of a large system
-/// is solved as elements of higher degree are, without a matrix.
+/// Calls f.operator()<set>(recipe) with the first capability set of the recipe that the problem offers. cg(1) of a
+/// large system is solved as elements of higher degree are, without a matrix.
 /// @param size its degrees of freedom
 /// @tparam Result what f returns
 template <class Result, class F>
@@ -47,10 +47,10 @@ Result visit_erased(Capability offered, std::size_t size, const MethodSpec& spec
   return visit_method(spec, [&]<class M>(const M& recipe) -> Result {
     if constexpr (std::is_same_v<M, Cg>) {
       if (size > most_dense_unknowns)
-        return detail::visit_face<Result, Averages, 0>(offered, Averages{recipe.options}, f);
+        return detail::visit_capability_set<Result, Averages, 0>(offered, Averages{recipe.options}, f);
     }
     const auto of_any_shape = with_shape_at_run_time(recipe);
-    return detail::visit_face<Result, std::remove_cv_t<decltype(of_any_shape)>, 0>(offered, of_any_shape, f);
+    return detail::visit_capability_set<Result, std::remove_cv_t<decltype(of_any_shape)>, 0>(offered, of_any_shape, f);
   });
 }
 

@@ -11,7 +11,7 @@ LaneRun::LaneRun(EnsembleBlock& block, std::vector<LaneObservers> observers)
     due_ = Observer::never;
     return;
   }
-  wake();
+  call_due_observers();
   spare_summed_steps();
   for (TangentWatch* watch : observers_[0].tangents) {
     const std::optional<TangentsUnderWay> vectors = watch->under_way();
@@ -33,7 +33,7 @@ void LaneRun::advance(std::int64_t steps) {
       block_.advance(next - taken_);
       taken_ = next;
     }
-    if (taken_ == due_) wake();
+    if (taken_ == due_) call_due_observers();
   }
 }
 
@@ -71,7 +71,7 @@ std::int64_t LaneRun::next_due() const {
   return due;
 }
 
-void LaneRun::wake() {
+void LaneRun::call_due_observers() {
   if (taken_ > 0) carry_tangents();
   for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
     if (block_.is_lost(lane)) continue;

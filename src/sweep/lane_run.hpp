@@ -31,7 +31,7 @@ class LaneRun {
 
  private:
   std::int64_t next_due() const;
-  void wake();
+  void call_due_observers();
   void carry_tangents();
   void look_for_sections();
   void spare_summed_steps();

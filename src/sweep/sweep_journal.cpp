@@ -54,7 +54,7 @@ SweepPast read_journal(const std::filesystem::path& file) {
 }
 
 SweepPast journal_in(std::span<const std::byte> left, const std::string& name) {
-  const auto damaged = [&](const std::string& how) { return FileError(name + " " + how + advice_to_begin_anew()); };
+  const auto damaged = [&](const std::string& how) { return FileError(name + " " + how + advice_to_overwrite()); };
   SweepPast past;
   std::uint64_t found[2] = {};
   if (left.size() < sizeof found) throw damaged("is damaged: it is too short");

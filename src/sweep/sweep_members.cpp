@@ -58,7 +58,7 @@ void Sweep::read_members(const std::string& name) {
   const auto work = [&] {
     MemberReader reader(varied_, raw_text_, name, sets_);
     for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
-      if (StopQuestion::answered()) {  // on the thread of the caller alone
+      if (StopQuestion::stop_requested()) {  // on the thread of the caller alone
         next = rows_.size();
         throw ReadingStopped();
       }

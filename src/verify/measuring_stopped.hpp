@@ -5,12 +5,12 @@
 
 namespace hamflow {
 
-/// Thrown out of measure_method() where a StopQuestion of its thread is answered.
+/// Thrown out of measure_method() if a StopQuestion of its thread requests a stop.
 struct MeasuringStopped {};
 
 /// To be called between the runs of a measurement, none of which takes long.
 inline void leave_if_stopped() {
-  if (StopQuestion::answered()) throw MeasuringStopped();
+  if (StopQuestion::stop_requested()) throw MeasuringStopped();
 }
 
 }  // namespace hamflow

@@ -1,5 +1,5 @@
-// A step with bounces in numbers alone (src/engine/parts_in_numbers.hpp), where a bounce turns one momentum round and
-// nothing else. Whatever is not ordinary is left to WallEvents.
+// A fast path for a step with bounces, on plain numbers (src/engine/parts_in_numbers.hpp), for walls at which a bounce
+// only changes the sign of one momentum. WallEvents handles all other cases.
 #pragma once
 
 #include "engine/parts_in_numbers.hpp"
@@ -8,15 +8,15 @@
 
 namespace hamflow {
 
-class FlightInNumbers {
+class BouncesInNumbers {
  public:
-  /// @param velocity as H = T + V has it
-  FlightInNumbers(const Functions<double>& functions, const std::vector<WallSide<double>>& sides)
+  /// @param functions with the velocity of H = T + V
+  BouncesInNumbers(const Functions<double>& functions, const std::vector<WallSide<double>>& sides)
       : functions_(functions), sides_(sides), search_(sides) {}
 
-  /// Psi_length from the present numbers, which a bounce ends a part of.
-  /// @param bounced (side, how much of the length is behind it); false: they are too many
-  /// @return false where somebody has to look closer: a look failed, or the motion stays on a wall
+  /// Advances the present numbers by Psi_length. Each bounce ends one part of it.
+  /// @param bounced (side, length taken so far); returns false if there are too many bounces
+  /// @return false if WallEvents must take over: an evaluation failed, or the motion stays on a wall
   template <class Bounced>
   bool take(PartsInNumbers& numbers, double length, const Bounced& bounced) {
     using Found = WallSearch<double>::Found;
@@ -29,9 +29,9 @@ class FlightInNumbers {
         p_[i] = numbers.momentum(i);
       }
       functions_.velocity(p_, v_);
-      double flown = 0;
+      double reached = 0;
       const auto look = [&](double part, const double*& q, const double*& v) {
-        flown = part;
+        reached = part;
         q = numbers.look(part * left);
         v = q + n;
         return q != nullptr;
@@ -43,7 +43,7 @@ class FlightInNumbers {
       if (part != 0) {
         const double* q = nullptr;
         const double* v = nullptr;
-        if (flown != part && !look(part, q, v)) return false;
+        if (reached != part && !look(part, q, v)) return false;
         numbers.go();
       }
       if (found == Found::none) return true;

@@ -10,7 +10,7 @@ namespace hamflow {
 
 namespace {
 
-/// Whether a bounce is p_i -> -p_i and nothing else: T quadratic with an M^-1 that is diagonal there.
+/// Whether a bounce is only p_i -> -p_i: T is quadratic and row i of M^-1 is diagonal.
 template <class R>
 bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& functions) {
   if (!includes(functions.capability, Capability::separable | Capability::quadratic_kinetic)) return false;
@@ -26,8 +26,7 @@ bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& fun
   return true;
 }
 
-/// What an operation does when one input changes its sign, to the last bit: it stays, it changes its sign, too, or
-/// neither is known.
+/// The effect on a result, to the last bit, if one input changes its sign: unchanged, sign changed, or unknown.
 enum class Sign { stays, turns, unknown };
 
 Sign product_of(Sign a, Sign b) {
@@ -35,7 +34,7 @@ Sign product_of(Sign a, Sign b) {
   return a == b ? Sign::stays : Sign::turns;
 }
 
-/// IEEE arithmetic rounds x and -x alike, and so do the odd functions of the library.
+/// IEEE arithmetic rounds x and -x symmetrically, and so do the odd functions of the library.
 Sign sign_of(const TapeNode& node, const std::vector<double>& constants, const std::vector<Sign>& all) {
   const auto at = [&](int i) { return i < 0 ? Sign::unknown : all[static_cast<std::size_t>(i)]; };
   const auto of_even_function = [&] { return at(node.a) == Sign::unknown ? Sign::unknown : Sign::stays; };
@@ -82,8 +81,8 @@ Sign sign_of(const TapeNode& node, const std::vector<double>& constants, const s
   }
 }
 
-/// Whether -p_i in place of p_i leaves H as it is to the last bit for every q and p, which terms that are written
-/// otherwise than as squares need not do: by the recording of H.
+/// Whether replacing p_i by -p_i changes no bit of H for any q and p, decided from the recording of H. Terms that are
+/// not written as squares may change bits.
 bool keep_last_bits(const RunWalls<double>& walls, const Functions<Trace<double>>& functions,
                     const Vector<double, dynamic>& q, const Vector<double, dynamic>& p) {
   Recorder<double> recorder(Folding::exact);
@@ -130,13 +129,13 @@ std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Req
   behind->functions = run.functions.plain;
   if constexpr (std::is_same_v<R, double>) {
     if (walls.hard()) {
-      const bool few = run.functions.size <= 64;  // steps of more are too long to be recorded, or gain little
+      const bool few = run.functions.size <= 64;  // longer steps are not recorded, or gain little
       const bool keep_energy =
           few && walls.rule == WallRule::reject && keep_last_bits(*behind, *run.functions.trace, run.q, run.p);
       run.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule, keep_energy});
       behind->turns_single = (walls.rule == WallRule::reject || (few && walls.rule == WallRule::event)) &&
                              turn_single_momenta(*behind, run.functions);
-      // Compensated positions are mirrored as sums of two numbers, forces of the first alone.
+      // Compensated positions are mirrored as sums of two numbers, but forces see only the first.
       behind->in_steps = (walls.rule == WallRule::reject && behind->turns_single) ||
                          (walls.rule == WallRule::mirror && request.arithmetic == "double");
     }

@@ -1,4 +1,4 @@
-// What the walls of one run are, and what its functions and recorded steps become behind them.
+// The walls of a run, and its functions and recorded steps with walls.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,13 @@ template <class R>
 struct RunWalls {
   WallRule rule = WallRule::event;
   bool in_steps = false;      // a recorded step can take a bounce
-  bool turns_single = false;  // a bounce is p_i -> -p_i and nothing else, for certain
+  bool turns_single = false;  // a bounce is certainly only p_i -> -p_i
   std::vector<WallSide<R>> sides;
-  std::vector<std::string> names;  // of their coordinates
+  std::vector<std::string> names;  // names of their coordinates
   std::shared_ptr<const Functions<R>> functions;
 };
 
-/// The walls of a request. Afterwards `run` has the functions behind them, and knows what its recorded steps do there.
+/// Makes the walls of a request. `run` receives the functions with walls and the rule for its recorded steps.
 template <class R>
 std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Request& request, const Walls& walls);
 

@@ -1,4 +1,4 @@
-// The potential energy of soft walls at a place: what a start of given energy and the energy of a state have of them.
+// The potential energy of soft walls, for starts of given energy and for the energy of a state.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace hamflow {
 
-/// V = k w/(2 (e - 1)) (1 - x^2)^(1 - e), for e = 1 -(k w/2) ln(1 - x^2), with x = (q - middle)/w of each wall; 0 of
-/// hard walls. NaN where q is on or beyond a wall. The force of walled_functions.cpp, k x/(1 - x^2)^e, is its slope.
+/// V = k w/(2 (e - 1)) (1 - x^2)^(1 - e), for e = 1 -(k w/2) ln(1 - x^2), with x = (q - middle)/w for each wall; 0 for
+/// hard walls. NaN if q is on or beyond a wall. Its derivative is the force of walled_functions.cpp, k x/(1 - x^2)^e.
 /// @param q all coordinates, in any container
 template <class R, class Q>
 R soft_energy(const Walls& walls, const Q& q) {

@@ -21,8 +21,8 @@ typename WallEvents<R>::V WallEvents<R>::velocity(const V& q, const V& p) const 
 }
 
 template <class R>
-bool WallEvents<R>::fly(const R& part, const R*& q, const R*& v) {
-  flown_ = part;
+bool WallEvents<R>::follow_path(const R& part, const R*& q, const R*& v) {
+  reached_ = part;
   const R length = part * length_;
   q = parts_.see_part(length);
   seen_ = q != nullptr;
@@ -30,7 +30,7 @@ bool WallEvents<R>::fly(const R& part, const R*& q, const R*& v) {
     v = q + q_.size();
     return true;
   }
-  parts_.back(Parts::Place::flight);
+  parts_.restore_state(Parts::Place::path);
   outcome_ = parts_.take_part(length);
   if (outcome_ != Outcome::done) return false;
   q_ = parts_.present_positions();
@@ -42,7 +42,7 @@ bool WallEvents<R>::fly(const R& part, const R*& q, const R*& v) {
 
 template <class R>
 Outcome WallEvents<R>::go_to(const R& part) {
-  if (flown_ == part) {
+  if (reached_ == part) {
     if (seen_) parts_.take_seen_part();
     return Outcome::done;
   }
@@ -51,21 +51,21 @@ Outcome WallEvents<R>::go_to(const R& part) {
     parts_.take_seen_part();
     return Outcome::done;
   }
-  parts_.back(Parts::Place::flight);
+  parts_.restore_state(Parts::Place::path);
   return part == R(0) ? Outcome::done : parts_.take_part(length);
 }
 
 template <class R>
 typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit, bool in_pieces) {
   length_ = length;
-  flown_ = R(0);
+  reached_ = R(0);
   seen_ = false;
   const V q0 = parts_.present_positions();
   const V v0 = velocity(q0, parts_.present_momenta());
   q_ = q0;
   return search_.first(
-      length, q0.begin(), v0.begin(), [&](const R& part, const R*& q, const R*& v) { return fly(part, q, v); }, hit,
-      in_pieces);
+      length, q0.begin(), v0.begin(), [&](const R& part, const R*& q, const R*& v) { return follow_path(part, q, v); },
+      hit, in_pieces);
 }
 
 template <class R>
@@ -78,18 +78,18 @@ bool WallEvents<R>::reflect(std::size_t i) {
   const R epsilon = std::numeric_limits<R>::epsilon();
   V other = p;
   const auto keeps_energy = [&] { return abs(functions_.energy(q, other) - energy) <= 64 * epsilon * size; };
-  // Mostly H is even in p_i.
+  // In most problems H is even in p_i.
   other[i] = -p[i];
   if (velocity(q, other)[i] == -v && keeps_energy()) {
     parts_.negate_momentum(i);
     return true;
   }
-  // Else quadratic in it: (M^-1)_ii from a velocity that is linear in p_i.
+  // Otherwise H may be quadratic in it: (M^-1)_ii follows from a velocity that is linear in p_i.
   const R unit = p[i] == R(0) ? R(1) : R(abs(p[i]));
   other[i] = p[i] + unit;
   const R inverse_mass = (velocity(q, other)[i] - v) / unit;
   R change = R(-2) * v / inverse_mass;
-  // Else the other root of H(q, p + lambda e_i) = H(q, p), by Newton from behind it.
+  // Otherwise Newton's method finds the other root of H(q, p + lambda e_i) = H(q, p), from beyond it.
   const auto gain = [&] {
     other[i] = p[i] + change;
     return functions_.energy(q, other) - energy;
@@ -105,7 +105,7 @@ bool WallEvents<R>::reflect(std::size_t i) {
     rise = gain();
     if (!(abs(correction) > 4 * epsilon * abs(change))) break;
   }
-  // The momentum that there was is a root, too.
+  // The old momentum is a root, too.
   if (!keeps_energy() || !(velocity(q, other)[i] * v <= R(0))) return false;
   parts_.push_momentum(i, change);
   return true;

@@ -1,8 +1,8 @@
-// Where a flight first meets a wall, on the partial steps Psi_t of the method itself.
+// Finds where a path first hits a wall. The path is Psi_t, 0 <= t <= length: partial steps of the method.
 //
-// From its two ends alone a flight tells of a crossing where it ends beyond a wall, and of one out and back where it
-// turns once. A longer one may have gone out, back, and in again: it is seen in pieces within each of which a cubic
-// through its ends, slopes and all, meets a point between them, so that a coordinate turns in one once at most.
+// The two ends of a short path suffice: it ends beyond a wall, or it turns at most once and may have crossed the wall
+// twice. A longer path may cross several times. It is divided into pieces such that a cubic Hermite interpolant through
+// the ends of a piece agrees with a point between them; then a coordinate turns at most once in a piece.
 #pragma once
 
 #include <limits>
@@ -19,18 +19,18 @@ class WallSearch {
  public:
   explicit WallSearch(const std::vector<WallSide<R>>& sides) : sides_(sides) {}
 
-  /// A wall, and the part of the flight behind which it is met.
+  /// A wall, and the part of the path after which it is hit.
   struct Hit {
     std::size_t side = 0;
     R part{};
   };
-  /// stuck: the motion stays on a wall, however often it is thrown back; failed: as a look did.
+  /// stuck: the motion stays on a wall although it is reflected; failed: an evaluation failed.
   enum class Found { none, hit, stuck, failed };
 
-  /// Of the flight of this length from q0 with the velocity v0 of H.
-  /// @param look (part, q, v) points q and v to what is behind that part of the flight, until the next look; false
-  /// where it cannot
-  /// @param in_pieces whether it is seen in pieces even if its ends look like those of a short one
+  /// The first wall on the path of this length from q0, with the velocity v0 of H.
+  /// @param look (part, q, v): points q and v to the state after that part of the path, valid until the next call;
+  /// returns false if it fails
+  /// @param in_pieces searches in pieces even if the ends look like those of a short path
   template <class Look>
   Found first(const R& length, const R* q0, const R* v0, const Look& look, Hit& hit, bool in_pieces = false) {
     length_ = length;
@@ -57,32 +57,31 @@ class WallSearch {
     return in_pieces ? first_in_pieces(q0, look, found, hit) : found;
   }
 
-  /// Whether two ends of a flight cannot be those of a short one. With these rates, by which each would change in
-  /// its whole length, the ends of a parabola are their mean apart; those of an oscillation of which the flight is a
-  /// quarter are 5/4 of it.
+  /// Whether the two ends of a path show that it is not short. Rates are changes over the whole length. The ends of a
+  /// parabola differ by the mean of the two rates; those of a quarter of an oscillation differ by 5/4 of it.
   static bool is_long(const R& from, const R& from_rate, const R& to, const R& to_rate) {
     const R apart = to - from - (from_rate + to_rate) / R(2);
     return R(8) * abs(apart) > larger(R(abs(from_rate)), R(abs(to_rate)));
   }
 
  private:
-  /// A point of a flight, as one wall sees it.
+  /// A point of a path relative to one wall.
   struct Point {
     R part{};
     R beyond{};
-    R rate{};  // dbeyond/dpart, as H has it
+    R rate{};  // dbeyond/dpart, from the velocity of H
   };
   Point point(const WallSide<R>& side, const R& part, const R* q, const R* v) const {
     const R rate = v[side.coordinate] * length_;
     return {part, side.beyond(q[side.coordinate]), side.side > 0 ? rate : R(-rate)};
   }
-  /// What is on a wall as far as numbers can tell.
+  /// The rounding within which a coordinate counts as on the wall.
   R rounding(std::size_t k, const R* q0) const {
     const WallSide<R>& side = sides_[k];
     return 2 * std::numeric_limits<R>::epsilon() * larger(R(abs(side.at)), R(abs(q0[side.coordinate])));
   }
 
-  /// Where the flight between two points that were seen meets a wall, if before what was found so far.
+  /// Where the path between two known points hits a wall, if that is before the hit found so far.
   template <class Look>
   Found meet(std::size_t k, const R& close, const Point& start, const Point& end, const Look& look, Found found,
              Hit& hit) const {
@@ -106,8 +105,8 @@ class WallSearch {
     Point from = start;
     Point to = end;
     if (ends_beyond) {
-      if (start.beyond >= -close) {  // thrown back a moment ago, and here again
-        if (comes_in) return found;  // rounding alone
+      if (start.beyond >= -close) {  // reflected a moment ago, and here again
+        if (comes_in) return found;  // due to rounding
         if (!turn(start, end, false, see, from)) return Found::failed;
         if (!(from.beyond < R(0))) {
           hit.side = k;
@@ -124,13 +123,13 @@ class WallSearch {
     return Found::hit;
   }
 
-  /// The same before what the two ends of the flight have told of: whatever that was, its every digit stays. Where even
-  /// the shortest pieces are no cubics, behind a jump or where the method no longer moves with the velocity that H has,
-  /// the rest goes in pieces as long as the longest good one.
+  /// Searches in pieces before the hit that the two ends of the path gave; if there is no earlier one, that hit keeps
+  /// all of its digits. If even the shortest pieces are not cubic (after a jump, or if the method no longer moves with
+  /// the velocity of H), the rest is searched in pieces of the length of the longest good one.
   template <class Look>
   Found first_in_pieces(const R* q0, const Look& look, Found found, Hit& hit) {
     const R until = found == Found::hit ? hit.part : R(1);
-    const R share = R(3) / R(8);  // no half, which is in step with what the ends are in step with
+    const R share = R(3) / R(8);  // not 1/2, which could be in resonance with the ends
     from_ = start_;
     constexpr int most_shorter = 1 << 14;
     R part(0);
@@ -179,7 +178,7 @@ class WallSearch {
     for (const WallSide<R>& side : sides_) to.push_back(point(side, part, q, v));
     return true;
   }
-  /// Whether the points between are on cubics through both ends, as good as needed to know where they turn.
+  /// Whether the inner points are on cubics through both ends, accurately enough to know where these turn.
   bool is_cubic(const R* q0) const {
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const Point& a = from_[k];
@@ -201,7 +200,7 @@ class WallSearch {
     return true;
   }
 
-  /// Between a point inside and one beyond a wall: the last one inside, to rounding.
+  /// Finds the last point inside, to rounding, between a point inside and one beyond a wall.
   template <class See>
   bool locate(const R& close, Point inside, Point outside, const See& see, R& part) const {
     constexpr int most = 4000;  // halvings of many digits
@@ -224,8 +223,8 @@ class WallSearch {
     return true;
   }
 
-  /// Between points of rates of opposite signs: where it is furthest out, or nearest a point that is beyond (for
-  /// outward = true), or inside.
+  /// Between points with rates of opposite sign: finds the extreme point, or any point that is beyond (for outward =
+  /// true) or inside.
   template <class See>
   bool turn(const Point& a, const Point& b, bool outward, const See& see, Point& found) const {
     Point left = a;
@@ -237,7 +236,7 @@ class WallSearch {
       const R rise = right.rate - left.rate;
       R next = left.part - left.rate * (right.part - left.part) / rise;
       const R width = right.part - left.part;
-      // A secant that hardly moves an end is followed by a halving.
+      // A secant step that hardly moves an end is followed by a bisection.
       if (i % 3 == 2 || !(left.part + width / R(1024) < next && next < right.part - width / R(1024))) {
         next = left.part + width / R(2);
       }
@@ -252,9 +251,9 @@ class WallSearch {
 
   const std::vector<WallSide<R>>& sides_;
   R length_{};
-  std::vector<Point> start_;  // as each wall sees it
+  std::vector<Point> start_;  // relative to each wall
   std::vector<Point> end_;
-  std::vector<Point> from_;  // and of a piece
+  std::vector<Point> from_;  // the same for a piece
   std::vector<Point> inner_;
 };
 

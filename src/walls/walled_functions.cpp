@@ -11,7 +11,7 @@ namespace hamflow {
 
 namespace {
 
-/// What all functions of one problem share; B is the type of its parameters.
+/// Data shared by all functions of a problem; B is the type of its parameters.
 template <class B>
 struct WallTerms {
   struct Soft {
@@ -23,9 +23,9 @@ struct WallTerms {
   std::vector<Soft> soft;
   B strength{};
   B exponent{};
-  int whole_exponent = 0;  // 0: it is none
+  int whole_exponent = 0;  // 0: not a whole number
   std::vector<WallSide<B>> mirrors;
-  std::vector<bool> kept;  // of each invariant; empty: all
+  std::vector<bool> kept;  // for each invariant; empty: all are kept
 };
 
 template <class S, class B>
@@ -130,12 +130,12 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     const B& e = walls_->exponent;
     const S x = (q[wall.coordinate] - S(wall.middle)) * S(wall.inverse_width);
     const S u = S(B(1)) - x * x;
-    if (!knows_no_branches(u) && !(S(B(0)) < u)) {
+    if (!cannot_branch(u) && !(S(B(0)) < u)) {
       OutsideNote::note(static_cast<std::size_t>(&wall - walls_->soft.data()));
       const S none(std::numeric_limits<B>::quiet_NaN());
       return {none, none, none};
     }
-    // One division for all powers: in lanes the divisions of e = 6 took four fifths of a step.
+    // One division serves all powers: in lanes the divisions for e = 6 took four fifths of a step.
     const S inverse = S(B(1)) / u;
     const S power =
         walls_->whole_exponent > 0 ? whole_power(inverse, walls_->whole_exponent) : S(exp(S(B(-e)) * log(u)));
@@ -144,8 +144,8 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     const S second = S(B(k / wall.half_width)) * (power + S(B(B(2) * e)) * (x * x) * (power * inverse));
     return {potential, -(S(k) * x * power), second};
   }
-  /// Of a Taylor series: where its steps end there are numbers again, which are looked at.
-  static bool knows_no_branches(const S& u) {
+  /// Whether S is a Taylor series, which cannot branch; the check is made at the ends of its steps.
+  static bool cannot_branch(const S& u) {
     if constexpr (requires { u.is_exact(); }) {
       return !u.is_exact();  // in exact recordings comparisons are guards
     } else {
@@ -170,10 +170,10 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   }
 
   static constexpr bool is_traced = detail::IsTrace<S>::value;
-  /// Which coordinates are turned round; of traces numbers, that are so above 0.
+  /// Which coordinates are mirrored; for traces a number above 0 means mirrored.
   using Turned = std::vector<std::conditional_t<is_traced, S, bool>>;
 
-  /// Back between the mirrors.
+  /// Maps q back between the mirrors.
   Turned folded(V& q) const {
     Turned turned;
     if (walls_->mirrors.empty()) return turned;
@@ -183,7 +183,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
       return folded_often(q);
     }
   }
-  /// What is beyond a wall afterwards still is no step of this recording.
+  /// Reflects once. A recording does not cover steps that are still beyond a wall afterwards.
   Turned folded_once(V& q) const {
     Turned turned(q.size(), S(B(0)));
     for (const WallSide<B>& wall : walls_->mirrors) {
@@ -194,7 +194,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     }
     for (const WallSide<B>& wall : walls_->mirrors) {
       const S& x = q[wall.coordinate];
-      if (wall.side > 0 ? S(wall.at) < x : x < S(wall.at)) throw CannotRecord("a mirrored step goes far beyond a wall");
+      if (wall.side > 0 ? S(wall.at) < x : x < S(wall.at)) throw CannotRecord("a mirrored step ends far beyond a wall");
     }
     return turned;
   }
@@ -273,7 +273,7 @@ ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, c
   other.plain = behind<R, R>(functions.plain, shared);
   other.trace = behind<Trace<R>, R>(functions.trace, shared);
   if constexpr (std::is_same_v<R, double>) other.dual = behind<Dual<double, 1>, double>(functions.dual, shared);
-  // What is known of the motion without walls.
+  // Exact results for the motion without walls do not hold here.
   if (!shared->soft.empty() || !shared->mirrors.empty()) {
     constexpr Capability left = Capability::separable | Capability::quadratic_kinetic;
     other.capability =

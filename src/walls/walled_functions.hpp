@@ -1,5 +1,5 @@
-// The functions of a problem behind walls, where walls change them: soft walls are a term of V; by the rule "mirror" H
-// goes on behind a wall as its mirror image; and invariants that walls break are none.
+// The functions of a problem with walls. Soft walls are a term of V; with the rule "mirror", H continues beyond a wall
+// as its mirror image; invariants that walls break are removed.
 #pragma once
 
 #include "core/outside_note.hpp"
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// @param sides of hard walls, as they stand in the run
+/// @param sides hard walls of the run
 template <class R>
 ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, const Request& request,
                                           const Walls& walls, const std::vector<WallSide<R>>& sides);

@@ -16,7 +16,7 @@ namespace {
 
 using Choices = std::map<std::string, std::string>;
 
-/// Whether a formula names a symbol.
+/// Whether a formula contains a symbol.
 bool names(const std::string& formula, std::string symbol) {
   symbol = symbol.substr(0, symbol.find('['));
   std::string word;
@@ -31,8 +31,9 @@ bool names(const std::string& formula, std::string symbol) {
   return false;
 }
 
-/// A wall turns one momentum round: what does not depend on it is left. Of declared invariants only a single momentum
-/// is known not to, that of the last coordinate, which is the cyclic one; of typed ones the formula tells.
+/// Whether a wall leaves an invariant: a bounce changes one momentum, on which the invariant must not depend. Among
+/// declared invariants this holds for certain only for the momentum of the last coordinate, which is cyclic; for typed
+/// invariants the formula decides.
 bool leaves(const ProblemEntry& problem, const InvariantInfo& invariant, const Walls::Interval& wall) {
   if (problem.structure) {
     const auto momentum =
@@ -52,7 +53,7 @@ std::vector<bool> kept_of(const ProblemEntry& problem, const Walls& walls) {
 }
 
 namespace {
-/// A half of the edge of a box as a number; of walls that somebody typed, what was typed.
+/// Half of the edge of a box as a number; for walls from a scenario, the typed text.
 std::string readable_wall(const std::string& text) {
   return text.starts_with("(") || text.starts_with("-(") ? shortest(number_value(text)) : text;
 }
@@ -90,20 +91,20 @@ ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
     }
     return sizes;
   };
-  // What is known of the motion without walls.
+  // Exact results for the motion without walls do not hold here.
   e.exact = nullptr;
   e.exact_radius = nullptr;
   e.describe_orbit = nullptr;
   e.to_reference = nullptr;
   e.from_reference = nullptr;
-  // Kernels that are compiled with a problem know no walls.
+  // Kernels compiled for a problem do not support walls.
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
   e.refused_start = [inner = problem.refused_start, walls](const Texts& parameters, const std::vector<double>& q) {
     const std::string beyond = beyond_walls(walls, q);
     return beyond.empty() ? inner(parameters, q) : beyond;
   };
   if (walls.hard()) return e;
-  // A charge that is turned, and forces of pairs alone, know no other term of V.
+  // boris and eg do not support another term of V.
   e.accepts = [inner = problem.accepts](const MethodSpec& method) {
     return method.name != "boris" && method.name != "eg" && inner(method);
   };

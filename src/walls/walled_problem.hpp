@@ -1,4 +1,4 @@
-// Problems behind walls, as entries of the catalogue: made when they are asked for.
+// Problems with walls as entries of the catalogue, made on request.
 #pragma once
 
 #include "hamflow/run/catalog.hpp"
@@ -6,11 +6,11 @@
 
 namespace hamflow {
 
-/// The entry of a problem behind walls.
+/// The entry of a problem with walls.
 std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name,
                                                    const std::map<std::string, std::string>& choices,
                                                    const Walls& walls);
-/// Which invariants of the problem without walls they leave.
+/// For each invariant of the problem without walls, whether it still holds.
 std::vector<bool> kept_invariants(const Request& request, const Walls& walls);
 
 }  // namespace hamflow

@@ -34,9 +34,10 @@ class WalledSimulation : public Simulation {
         has_own_substeps_(inner_->method().own_substeps),
         order_(inner_->method().order),
         counts_(walls_->sides.size()) {
-    if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
+    if (parts_ == nullptr) throw Error("hamflow: a simulation with walls must support partial steps");
     if constexpr (std::is_same_v<R, double>) {
-      if (walls_->turns_single && in_numbers_ != nullptr) flight_.emplace(*walls_->functions, walls_->sides);
+      if (walls_->turns_single && in_numbers_ != nullptr)
+        bounces_in_numbers_.emplace(*walls_->functions, walls_->sides);
     }
   }
 
@@ -86,7 +87,7 @@ class WalledSimulation : public Simulation {
     return all;
   }
   void tell_bounces(std::function<void(const Bounce&)> told) override { told_ = std::move(told); }
-  /// What recorded steps do not take is added here.
+  /// Steps that are not recorded add to the sums here.
   bool add_to_sums(std::span<const NamedExpression> summed, std::span<StepSum> sums) override {
     if (!inner_->add_to_sums(summed, sums)) return false;
     if (walls_->rule != WallRule::soft) summed_ = summed, sums_ = sums;
@@ -104,7 +105,7 @@ class WalledSimulation : public Simulation {
     Effort given_up;
     ar(inner, counts, given_up);
     ar.finish();
-    if (counts.size() != counts_.size()) throw Error("the saved state is that of other walls");
+    if (counts.size() != counts_.size()) throw Error("the saved state belongs to other walls");
     inner_->restore(inner);
     counts_ = std::move(counts);
     given_up_ = given_up;
@@ -127,13 +128,14 @@ class WalledSimulation : public Simulation {
   }
 
  protected:
-  /// The work of flights that ended beyond a wall and were taken again.
+  /// Adds the work of steps that ended beyond a wall and were repeated.
   void add_given_up(Effort& all) const {
     add_evaluations(all, given_up_);
     all.steps += given_up_.steps;
     all.solves_max = std::max(all.solves_max, given_up_.solves_max);
   }
-  /// Within a rejected step a sample is the flight that was given up; soft walls are a term of H.
+  /// Whether partial steps include bounces. A sample within a rejected step shows the discarded path; soft walls are a
+  /// term of H.
   bool bounces_within_parts() const { return walls_->rule == WallRule::event || walls_->rule == WallRule::mirror; }
   std::unique_ptr<WalledSimulation> copy() const {
     auto other = std::make_unique<WalledSimulation>(inner_->clone(), walls_);
@@ -141,7 +143,7 @@ class WalledSimulation : public Simulation {
     other->given_up_ = given_up_;
     return other;
   }
-  /// On a copy, so that it changes nothing and tells nobody.
+  /// Computed on a copy, so that it changes nothing and reports no bounces.
   Outcome show_after(const R& part, const R& t, Frame& frame) const {
     const auto other = copy();
     Outcome outcome = Outcome::done;
@@ -150,7 +152,7 @@ class WalledSimulation : public Simulation {
       other->fold();
     } else {
       other->in_pieces_ = has_own_substeps_;
-      outcome = other->fly(part);
+      outcome = other->advance_with_bounces(part);
     }
     if (outcome == Outcome::done) other->parts_->show_at(t, frame);
     if (outcome == Outcome::done) frame.effort = effort();
@@ -159,9 +161,9 @@ class WalledSimulation : public Simulation {
 
   Outcome take_step() {
     in_pieces_ = false;
-    // What a step begins with is counted as its own, whichever road it takes.
+    // Evaluations at the beginning of a step count as part of the step, whichever path takes it.
     if (walls_->rule == WallRule::event) parts_->prepare();
-    // A loop that has ended for it says the same as stays_inside, and took as much.
+    // A loop that ended at this step decided the same as stays_inside, with the same work.
     const bool is_undone = walls_->rule == WallRule::event && undone_ != nullptr;
     if (is_undone) {
       add_evaluations(given_up_, std::exchange(undone_, nullptr)->effort);
@@ -170,7 +172,7 @@ class WalledSimulation : public Simulation {
         return Outcome::done;
       }
     }
-    parts_->mark(Place::step);
+    parts_->remember_state(Place::step);
     if (is_undone) return after_walls(bounce(Outcome::done));
     const Effort before = inner_->effort();
     const Effort given_up_before = given_up_;
@@ -183,7 +185,7 @@ class WalledSimulation : public Simulation {
     in_pieces_ = looks_into_steps() && (starts_at_rest(v0) || has_several_parts(outcome, spent));
     if (outcome == Outcome::done && !in_pieces_ && stays_inside(q0, v0)) return outcome;
     if (walls_->rule == WallRule::event) {
-      parts_->back(Place::step);
+      parts_->restore_state(Place::step);
       outcome = bounce(outcome);
     } else {
       outcome = walls_->rule == WallRule::reject ? reject(spent) : mirror();
@@ -205,7 +207,7 @@ class WalledSimulation : public Simulation {
     return Outcome::done;
   }
 
-  /// Where nobody is told of bounces recorded steps take them, and count.
+  /// If no callback needs the bounces, recorded steps carry them out and count them.
   std::span<std::int64_t> counted() {
     if (told_ || !walls_->in_steps) return {};
     return counts_;
@@ -223,24 +225,24 @@ class WalledSimulation : public Simulation {
     return v;
   }
 
-  /// Whether steps whose two ends are inside are asked how long they are. Loops of recorded steps ask for their
-  /// tangents alone, and which steps of a run are taken in loops depends on lanes, samples and resuming: the same is
-  /// asked of all steps of a method that can be recorded.
+  /// Whether steps with both ends inside are tested by is_long. Loops of recorded steps test only their tangents, and
+  /// which steps run in loops depends on lanes, samples and resuming; so all steps of a method that can be recorded
+  /// have the same test.
   bool looks_into_steps() const { return walls_->rule == WallRule::event && recorded_ == nullptr; }
-  /// Whether a step was made of several sub-steps of the method's own, as far as its work tells: one is as many
-  /// evaluations as a series has terms, or one and a half times as many as the order, the stages of dop853. Where one
-  /// was rejected, or nobody knows, it is said of a single one too: then the search takes longer and finds the same.
+  /// Whether a step may consist of several sub-steps, judged by its work: a sub-step costs as many evaluations as a
+  /// series has terms, or one and a half times the order for the stages of dop853. It may be true for a single sub-step
+  /// (after a rejection, or if the work is unknown); the search then takes longer and finds the same.
   bool has_several_parts(Outcome outcome, const Effort& spent) const {
     if (!has_own_substeps_) return false;
     return outcome != Outcome::done || 2 * (spent.force + spent.gradient) > 3 * order_;
   }
-  /// A run from rest of which each step is a whole period shows nothing but rest.
+  /// Whether the step starts at rest. If each step is a whole period, the ends of steps would show only rest.
   bool starts_at_rest(const V& v0) const {
     return inner_->step() <= 1 && std::any_of(walls_->sides.begin(), walls_->sides.end(),
                                               [&](const WallSide<R>& wall) { return v0[wall.coordinate] == R(0); });
   }
 
-  /// Whether the step that was taken was within the walls for certain (see stays_within, src/engine/recorded_step.hpp).
+  /// Whether the step certainly stayed within the walls (see stays_within, src/engine/recorded_step.hpp).
   bool stays_inside(const V& q0, const V& v0) const {
     const V q1 = parts_->present_positions();
     const bool and_turns = walls_->rule == WallRule::event;
@@ -259,12 +261,12 @@ class WalledSimulation : public Simulation {
     });
   }
 
-  /// The rule of the listing [Sonnleitner2010, pp. 84, 103]: the whole old state with one momentum turned round, of two
-  /// walls at once the last; the step's time passes.
+  /// The rule of the listing [Sonnleitner2010, pp. 84, 103]: restores the old state and reverses one momentum (for two
+  /// walls at once, that of the last); the time of the step passes.
   Outcome reject(const Effort& spent) {
     const V q1 = parts_->present_positions();
-    if (!parts_->back_counting(Place::step)) {
-      parts_->back(Place::step);
+    if (!parts_->restore_state_keeping_effort(Place::step)) {
+      parts_->restore_state(Place::step);
       add_evaluations(given_up_, spent);
     }
     std::size_t last = 0;
@@ -281,8 +283,8 @@ class WalledSimulation : public Simulation {
     return parts_->complete_step();
   }
 
-  /// Behind the walls the motion of the mirrored H is that of H, turned round: back inside, one reflection after the
-  /// other.
+  /// Maps a state beyond walls back inside, one reflection after the other: there the motion of the mirrored H is the
+  /// mirror image of that of H.
   bool fold() {
     for (int n = 0; n <= most_bounces; ++n) {
       const V q = parts_->present_positions();
@@ -294,7 +296,7 @@ class WalledSimulation : public Simulation {
       parts_->forget_mirrored(wall->coordinate);
       met_.push_back({static_cast<std::size_t>(wall - walls_->sides.begin()), R(0)});
       keep_state(met_.back());
-      // Of several bounces in one step all but the last leave the coordinate outside.
+      // With several bounces in one step, all but the last leave the coordinate outside.
       if (told_) met_.back().q[wall->coordinate] = wall->at;
     }
     return false;
@@ -309,16 +311,17 @@ class WalledSimulation : public Simulation {
     return Outcome::done;
   }
 
-  /// The step in parts, from wall to wall. One that meets none after all is taken whole, with all that is remembered.
-  /// @param whole how that one ended
+  /// Takes the step in parts, from wall to wall. If it hits no wall after all, it is taken whole, with the method's
+  /// memory.
+  /// @param whole the outcome of the whole step
   Outcome bounce(Outcome whole) {
     const Effort spent_before = parts_->effort_of_parts();
     const Effort before = inner_->effort();
-    const Outcome outcome = fly(parts_->length_of_step());
+    const Outcome outcome = advance_with_bounces(parts_->length_of_step());
     if (outcome != Outcome::done) return outcome;
     add_evaluations(given_up_, parts_->effort_of_parts(), spent_before);
     if (met_.empty()) {
-      parts_->back(Place::step);
+      parts_->restore_state(Place::step);
       return whole == Outcome::done ? inner_->advance(1) : whole;
     }
     Effort kept;
@@ -327,10 +330,10 @@ class WalledSimulation : public Simulation {
     return parts_->complete_step();
   }
 
-  /// The same where that is no more than machine code, without a way back. @return false: nothing was done
+  /// The same as machine code only, without saving the state. @return false if nothing was done
   bool bounce_in_numbers() {
     if constexpr (std::is_same_v<R, double>) {
-      PartsInNumbers* const numbers = flight_ ? in_numbers_->parts_in_numbers() : nullptr;
+      PartsInNumbers* const numbers = bounces_in_numbers_ ? in_numbers_->parts_in_numbers() : nullptr;
       if (numbers == nullptr) return false;
       const std::size_t n = numbers->part().size;
       const auto bounced = [&](std::size_t side, double after) {
@@ -343,11 +346,13 @@ class WalledSimulation : public Simulation {
         return met_.size() <= most_bounces;
       };
       const Effort before = inner_->effort();
-      if (flight_->take(*numbers, parts_->length_of_step(), bounced) && !met_.empty() && in_numbers_->land()) {
+      if (bounces_in_numbers_->take(*numbers, parts_->length_of_step(), bounced) && !met_.empty() &&
+          in_numbers_->land()) {
         Effort kept;
         add_evaluations(kept, inner_->effort(), before);
         add_evaluations(given_up_, numbers->effort(), kept);
-        if (parts_->complete_step() != Outcome::done) throw std::logic_error("hamflow: a part that was seen is none");
+        if (parts_->complete_step() != Outcome::done)
+          throw std::logic_error("hamflow: a part of a step that was evaluated cannot be taken");
         return true;
       }
       met_.clear();
@@ -355,11 +360,11 @@ class WalledSimulation : public Simulation {
     return false;
   }
 
-  /// Psi_length with bounces, which are listed in met_.
-  Outcome fly(const R& length) {
+  /// Advances by Psi_length with bounces, which are listed in met_.
+  Outcome advance_with_bounces(const R& length) {
     R left = length;
     while (true) {
-      parts_->mark(Place::flight);
+      parts_->remember_state(Place::path);
       WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
       typename WallEvents<R>::Hit hit;
       const auto found = events.first(left, hit, in_pieces_);
@@ -384,7 +389,7 @@ class WalledSimulation : public Simulation {
   }
   struct Met {
     std::size_t side = 0;
-    R after{};  // the start of the step
+    R after{};  // the time at the start of the step
     V q{};
     V p{};
   };
@@ -394,7 +399,7 @@ class WalledSimulation : public Simulation {
     met.p = parts_->present_momenta();
   }
 
-  /// The step is done: its bounces count.
+  /// Reports and counts the bounces of a completed step.
   void tell() {
     for (const Met& met : met_) {
       ++counts_[met.side];
@@ -420,8 +425,8 @@ class WalledSimulation : public Simulation {
     met_.clear();
   }
 
-  /// The iterations of a step that was rejected or cut are those of one step, all that were given up with them; each of
-  /// its parts has counted itself as a step.
+  /// Counts the iterations of a rejected or divided step, including discarded ones, as those of one step; each of its
+  /// parts has counted itself as a step.
   void count_as_one(const Effort& before, const Effort& given_up_before) {
     const Effort now = inner_->effort();
     if (now.linear_solves == 0 && given_up_.linear_solves == 0) return;
@@ -430,7 +435,7 @@ class WalledSimulation : public Simulation {
                                                               given_up_.linear_solves - given_up_before.linear_solves);
   }
   Outcome back_with(Outcome why) {
-    parts_->back(Place::step);
+    parts_->restore_state(Place::step);
     met_.clear();
     return why;
   }
@@ -442,42 +447,43 @@ class WalledSimulation : public Simulation {
     return Outcome::wall;
   }
   Outcome stays_on(std::size_t side) {
-    why_ = "the motion stays on the wall of " + walls_->names[side] + ", however often it is thrown back";
+    why_ = "the motion stays on the wall of " + walls_->names[side] + " although it is reflected again and again";
     return Outcome::wall;
   }
-  /// A number that is none, where a soft wall was met: in the step that failed, which is taken once more on a copy, not
-  /// by a trial of Newton in one before it.
+  /// Explains a NaN by a soft wall. The failed step is repeated on a copy to see whether it reaches a wall, because a
+  /// Newton iteration of an earlier step may have done so, too.
   Outcome explained(Outcome outcome) {
     if (!outside_ || (outcome != Outcome::non_finite && outcome != Outcome::not_converged)) return outcome;
     outside_.reset();
     (void)inner_->clone()->advance(1);
     if (!outside_) return outcome;
-    why_ = walls_->names.at(*outside_) + " stood on a soft wall or beyond it";
+    why_ = walls_->names.at(*outside_) + " was on or beyond a soft wall";
     return Outcome::outside;
   }
 
   std::unique_ptr<Simulation> inner_;
   Parts* parts_;                // the same
-  RecordedMember* recorded_;    // the same; null where it is none
+  RecordedMember* recorded_;    // the same; null if it is not recorded
   MovesInNumbers* in_numbers_;  // the same
   std::shared_ptr<const RunWalls<R>> walls_;
   bool has_own_substeps_;
   int order_;
-  bool in_pieces_ = false;            // flights of the present step are seen in pieces, whatever their ends look like
-  std::vector<std::int64_t> counts_;  // of each side
-  Effort given_up_;                   // by the search for bounces and by steps that were rejected
-  std::vector<Met> met_;              // in the present step
-  std::optional<FlightInNumbers> flight_;
-  const RecordedStep* undone_ = nullptr;       // by recorded steps: the next one, which may meet a wall
-  std::span<const NamedExpression> summed_{};  // whose values behind each step are added to sums_
+  bool in_pieces_ = false;            // the present step is searched in pieces, whatever its ends look like
+  std::vector<std::int64_t> counts_;  // bounces of each side
+  Effort given_up_;                   // work of the search for bounces and of rejected steps
+  std::vector<Met> met_;              // bounces in the present step
+  std::optional<BouncesInNumbers> bounces_in_numbers_;
+  const RecordedStep* undone_ =
+      nullptr;  // the next step, which may hit a wall and which the loop of recorded steps has left
+  std::span<const NamedExpression> summed_{};  // their values after each step are added to sums_
   std::span<StepSum> sums_{};
   Frame frame_;
   std::string why_;
-  std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
+  std::optional<std::size_t> outside_;  // the interval of the soft wall that was reached
   std::function<void(const Bounce&)> told_;
 };
 
-/// A member of an ensemble. What recorded steps have counted is taken with their values.
+/// A member of an ensemble. It takes the counts of recorded steps together with their values.
 class WalledMember final : public WalledSimulation<double>, public RecordedMember {
  public:
   WalledMember(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<double>> walls)
@@ -488,7 +494,7 @@ class WalledMember final : public WalledSimulation<double>, public RecordedMembe
     const auto step = walls_->in_steps ? recorded_->recorded_step(AtWalls::bounce) : nullptr;
     return step ? step : recorded_->recorded_step(AtWalls::stop);
   }
-  /// Vectors are carried through bounces one by one.
+  /// Tangent vectors go through bounces one by one, not as a recorded step.
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt /*at*/) override { return nullptr; }
   void make_ready() override { recorded_->make_ready(); }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {

@@ -1,5 +1,5 @@
-// Walls around any simulation: what is behind virtual calls takes its steps in parts (detail/run/steps_in_parts.hpp),
-// and no method or problem knows of them. Compiled once for each number type.
+// Walls around any simulation behind virtual calls that supports partial steps (detail/run/steps_in_parts.hpp). Methods
+// and problems do not know about walls. Compiled once for each number type.
 #pragma once
 
 #include "engine/erased.hpp"
@@ -10,8 +10,8 @@ namespace hamflow {
 template <class R>
 using Simulate = std::unique_ptr<Simulation> (*)(const ErasedRun<R>&, const Request&);
 
-/// The simulation of a request behind the walls.
-/// @param simulate without them
+/// The simulation of a request with walls.
+/// @param simulate makes the simulation without walls
 template <class R>
 std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
                                                   Simulate<R> simulate);

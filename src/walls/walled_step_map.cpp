@@ -18,7 +18,7 @@ Vector<R, dynamic> part_of(const State<R>& z, std::size_t first, std::size_t siz
   return x;
 }
 
-/// The problem with what walls change of H: soft walls are a term of it, behind mirrors it goes on as its image.
+/// The problem with the H of the walls: soft walls are a term of H; beyond a mirror H continues as its image.
 ErasedProblem problem_behind(const ErasedProblem& problem, const Request& request, const Walls& walls) {
   const auto behind = [&]<class R>(const ErasedFunctions<R>& functions) {
     return functions_behind_walls(functions, request, walls,
@@ -27,9 +27,9 @@ ErasedProblem problem_behind(const ErasedProblem& problem, const Request& reques
   return {behind(problem.in_double), behind(problem.in_long), behind(problem.in_quad)};
 }
 
-/// What a bounce leaves of the claims of a method. The time of a located bounce depends on the state, a rejection turns
-/// a momentum round and leaves its coordinate: neither is symplectic. Mirrors and rejections are wrong by the first
-/// power of the step.
+/// The claims of a method that hold with bounces. The time of a located bounce depends on the state, and a rejection
+/// reverses a momentum without moving its coordinate, so neither is symplectic. Mirrors and rejections have an error of
+/// first order in the step.
 MethodInfo claims_behind(const Walls& walls, MethodInfo claims) {
   claims.name += " + " + wall_rules()[static_cast<std::size_t>(walls.rule)];
   if (walls.rule != WallRule::mirror) claims.symplectic = false;
@@ -40,7 +40,7 @@ MethodInfo claims_behind(const Walls& walls, MethodInfo claims) {
   return claims;
 }
 
-/// Steps are those of simulations behind the walls, and a tangent vector goes by the branch that they took.
+/// Steps are taken by simulations with walls; tangent vectors follow the branch that these take.
 class WalledStepMap final : public StepMap {
   using V = Vector<double, dynamic>;
   using Tangents = std::vector<State<double>>;
@@ -63,7 +63,7 @@ class WalledStepMap final : public StepMap {
   bool advance(State<double>& z, double h, std::int64_t steps) const override {
     return take(*simulation(z, h, request_), steps, z);
   }
-  /// As those in quad, which has more digits.
+  /// Computed in quad, which has more digits.
   bool advance(State<long double>& z, long double h, std::int64_t steps) const override {
     State<Quad> long_z(z.begin(), z.end());
     if (!advance(long_z, Quad(h), steps)) return false;
@@ -87,7 +87,7 @@ class WalledStepMap final : public StepMap {
     return rows;
   }
 
-  /// A run from here tells in which steps there are bounces; those between go together.
+  /// A run from here finds the steps with bounces; the steps between them are taken together.
   bool advance_with_tangents(State<double>& z, Tangents& tangents, double h, std::int64_t steps) const override {
     const auto run = simulation(z, h, request_);
     std::vector<std::int64_t> with_bounce;
@@ -121,8 +121,8 @@ class WalledStepMap final : public StepMap {
     return run->effort();
   }
 
-  /// The motion itself is that of located bounces, whatever the rule: extrapolation, of parts so short that a
-  /// coordinate turns once in one of them.
+  /// The exact motion has located bounces, whatever the rule. It is computed by extrapolation, in parts so short that a
+  /// coordinate turns at most once in each.
   State<Quad> flow(const State<Quad>& z, const Quad& t) const override {
     constexpr int parts = 32;
     Request request = in_quad(request_);
@@ -132,7 +132,7 @@ class WalledStepMap final : public StepMap {
     request.walls = located;
     State<Quad> end = z;
     if (t != Quad(0) && !quad_steps(end, t / Quad(parts), parts, request)) {
-      throw Error("the motion behind the walls cannot be followed");
+      throw Error("the motion between the walls cannot be computed");
     }
     return end;
   }
@@ -164,7 +164,7 @@ class WalledStepMap final : public StepMap {
     z.insert(z.end(), frame.p.begin(), frame.p.end());
     return true;
   }
-  /// What is stored of a coordinate begins with its number, whatever else it carries.
+  /// A stored coordinate begins with its number, whatever else it holds.
   bool quad_steps(State<Quad>& z, const Quad& h, std::int64_t steps, const Request& request) const {
     const auto run =
         simulate_erased<Quad>({problem_.in_quad, part_of(z, 0, size_), part_of(z, size_, size_), h}, request);
@@ -175,14 +175,14 @@ class WalledStepMap final : public StepMap {
     return true;
   }
 
-  /// One step in which there are bounces.
+  /// Takes one step that has bounces.
   bool bounce(State<double>& z, Tangents& tangents, double h) const {
     const auto run = simulation(z, h, request_);
     std::vector<Bounce> met;
     run->tell_bounces([&](const Bounce& bounce) { met.push_back(bounce); });
     State<double> end = z;
     if (!take(*run, 1, end)) return false;
-    if (met.empty()) return free_->advance_with_tangents(z, tangents, h, 1);  // a rounding further it was one
+    if (met.empty()) return free_->advance_with_tangents(z, tangents, h, 1);  // no bounce here, because of rounding
     if (walls_.rule == WallRule::event) {
       if (!through(met, z, tangents, h)) return false;
     } else if (walls_.rule == WallRule::mirror) {
@@ -199,26 +199,27 @@ class WalledStepMap final : public StepMap {
     return true;
   }
 
-  /// From wall to wall. A neighbour meets it dtau later, tangents having brought it dq_i further from it: dtau =
-  /// -dq_i/(dPsi_tau/dtau)_i, and goes on that much shorter behind it (the saltation matrix).
+  /// Takes the step from wall to wall. A neighbouring motion, displaced by the tangent vector, is dq_i further from the
+  /// wall and hits it dtau later, dtau = -dq_i/(dPsi_tau/dtau)_i; its remaining time is shorter by dtau (the saltation
+  /// matrix).
   bool through(const std::vector<Bounce>& met, State<double>& z, Tangents& tangents, double h) const {
     double used = 0;
     std::vector<double> later(tangents.size());
     for (const Bounce& at : met) {
-      const auto rate = fly(z, tangents, at.time - used, h);  // the step begins at t = 0
+      const auto rate = advance_part(z, tangents, at.time - used, h);  // the step begins at t = 0
       if (!rate) return false;
       used = at.time;
       const double speed = (*rate)[at.coordinate];
       for (std::size_t k = 0; k < tangents.size(); ++k) {
         const double further = -tangents[k][at.coordinate] / speed;
-        if (!std::isfinite(further)) return false;  // it grazes the wall: there is no derivative
+        if (!std::isfinite(further)) return false;  // a grazing hit has no derivative
         for (std::size_t i = 0; i < z.size(); ++i) tangents[k][i] += further * (*rate)[i];
         tangents[k][at.coordinate] = 0;
         later[k] += further;
       }
       if (!reflect(at, z, tangents)) return false;
     }
-    const auto rate = fly(z, tangents, h - used, h);
+    const auto rate = advance_part(z, tangents, h - used, h);
     if (!rate) return false;
     for (std::size_t k = 0; k < tangents.size(); ++k) {
       for (std::size_t i = 0; i < z.size(); ++i) tangents[k][i] -= later[k] * (*rate)[i];
@@ -226,21 +227,22 @@ class WalledStepMap final : public StepMap {
     return true;
   }
 
-  /// Psi_length with tangents, and its derivative by the length there.
-  std::optional<State<double>> fly(State<double>& z, Tangents& tangents, double length, double h) const {
+  /// Advances by Psi_length with tangents. @return the derivative of the state by the length
+  std::optional<State<double>> advance_part(State<double>& z, Tangents& tangents, double length, double h) const {
     if (length == 0) return field(z);
     std::optional<State<double>> rate = rate_of(z, length, h);
     if (rate && !free_->advance_with_tangents(z, tangents, length, 1)) return std::nullopt;
     return rate;
   }
 
-  /// A difference of two steps in quad: with a distance of 2^-37 h both its error and its rounding are some 2^-74, and
-  /// no kernel of any method has to be compiled for dual lengths. Newton stops where quad ends: what a tolerance leaves
-  /// would be divided by the distance. A part may be much shorter: the distance is that of the whole step.
+  /// A difference quotient of two steps in quad. With a distance of 2^-37 h its error and its rounding are both some
+  /// 2^-74, and no kernel has to be compiled for dual step lengths. Newton iterates to the rounding of quad, because a
+  /// residual at the tolerance would be divided by the distance. h is the length of the whole step, since a part may be
+  /// much shorter.
   std::optional<State<double>> rate_of(const State<double>& z, double length, double h) const {
     Request request = in_quad(request_);
     request.walls.reset();
-    if (!free_->claims().explicit_step) {  // what is said of Newton begins with the tolerance
+    if (!free_->claims().explicit_step) {  // the first option of Newton is the tolerance
       const auto& options = find_method(request.method.name).family->options;
       auto option =
           std::find_if(options.begin(), options.end(), [](auto& each) { return each.name == tolerance_option; });
@@ -277,8 +279,8 @@ class WalledStepMap final : public StepMap {
     return all;
   }
 
-  /// To the state behind a bounce. The new momentum is that root of H(q, p + lambda e_i) = H(q, p), whose derivative is
-  /// dp'_i = ((H_q - H'_q) dq + H_p dp - sum_(j != i) H'_p_j dp_j)/H'_p_i.
+  /// Maps the state before a bounce to the state after it. The new momentum is the other root of H(q, p + lambda e_i) =
+  /// H(q, p), with the derivative dp'_i = ((H_q - H'_q) dq + H_p dp - sum_(j != i) H'_p_j dp_j)/H'_p_i.
   bool reflect(const Bounce& at, State<double>& z, Tangents& tangents) const {
     const std::size_t turned = size_ + at.coordinate;
     const double before = z[turned];
@@ -288,7 +290,7 @@ class WalledStepMap final : public StepMap {
     other[turned] = before;
     const State<double> f = field(other);
     const State<double> g = field(z);
-    bool even = z[turned] == -before;  // mostly: then it holds at rest, too
+    bool even = z[turned] == -before;  // true in most problems, and valid at rest, too
     for (std::size_t i = 0; i < z.size(); ++i) even = even && g[i] == (i == at.coordinate ? -f[i] : f[i]);
     for (State<double>& tangent : tangents) {
       if (even) {
@@ -309,7 +311,7 @@ class WalledStepMap final : public StepMap {
   ErasedProblem problem_;
   Request request_;
   Walls walls_;
-  std::unique_ptr<StepMap> free_;  // without walls; between mirrors that of the H that goes on behind them
+  std::unique_ptr<StepMap> free_;  // without walls; with mirrors, for the H that continues beyond them
   std::size_t size_;
 };
 

@@ -1,4 +1,4 @@
-// The map of a step behind walls, with tangent vectors through bounces.
+// The map of a step with walls, which carries tangent vectors through bounces.
 #pragma once
 
 #include "engine/erased.hpp"
@@ -9,7 +9,7 @@ namespace hamflow {
 /// The map of a step without walls.
 using MakeStepMap = std::unique_ptr<StepMap> (*)(const ErasedProblem&, const MethodSpec&);
 
-/// @param request names the problem and the method
+/// @param request with the problem and the method
 std::unique_ptr<StepMap> step_map_behind_walls(const ErasedProblem& problem, const Request& request, const Walls& walls,
                                                MakeStepMap make);
 

@@ -74,7 +74,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   const auto complain = [&](const std::string& key, const std::string& message) {
     const auto found = settings.find(key);
     const Setting where = found == settings.end() ? Setting{{}, 1, 1} : found->second;
-    all.push_back({scenario.file, where.line, where.column, key, message + advice_to_begin_anew()});
+    all.push_back({scenario.file, where.line, where.column, key, message + advice_to_overwrite()});
   };
   std::map<std::string, std::string> before;
   for (std::size_t i = 0; i < checkpoint.keys.size(); ++i) before[checkpoint.keys[i]] = checkpoint.values[i];
@@ -133,7 +133,7 @@ void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const
     std::error_code none;
     if (!wanted || (begun && !fs::exists(file, none))) return;
     if (const std::string wrong = wrong_with(file); !wrong.empty()) {
-      throw FileError("cannot go on with " + file.string() + ": " + wrong + advice_to_begin_anew());
+      throw FileError("cannot go on with " + file.string() + ": " + wrong + advice_to_overwrite());
     }
   };
   check("h5", "run.h5",
@@ -160,7 +160,7 @@ void check_summary(const std::string& own, const fs::path& folder) {
   if (!text) return;
   const auto refuse = [&](const std::string& why) {
     throw FileError("the summary " + (folder / "summary.json").string() + " is not of this run: " + why +
-                    "; move it elsewhere" + advice_to_begin_anew());
+                    "; move it elsewhere" + advice_to_overwrite());
   };
   const auto found = read_json_by_keys(*text);
   if (!found.is_object()) refuse("it is no JSON object");

@@ -27,7 +27,7 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
   const auto complain = [&](const std::string& option, const std::string& found, const std::string& allowed) {
     all.push_back({"", 0, 0, option,
                    "found " + found + "; allowed with " + option_name("resume") + " " + allowed +
-                       ", as when the sweep began" + advice_to_begin_anew()});
+                       ", as when the sweep began" + advice_to_overwrite()});
   };
   for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
     const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";

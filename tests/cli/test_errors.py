@@ -246,10 +246,10 @@ record_every = true
         self.hamflow("verify", status=2)
 
     def test_what_stands_behind_a_parenthesis(self):
-        self.assertIn("has 'x' behind its closing parenthesis", self.hamflow("verify", "cg(2)x", status=2).stderr)
+        self.assertIn("with 'x' after its closing parenthesis", self.hamflow("verify", "cg(2)x", status=2).stderr)
         for told in (self.hamflow("verify", "cg(2", status=2).stderr,
                      self.hamflow("run", "kepler.toml", "--set", "method.name=cg(2", status=2).stderr):
-            self.assertIn("found 'cg(2', which lacks its closing parenthesis; allowed cg(2)", told)
+            self.assertIn("found 'cg(2' without a closing parenthesis; allowed cg(2)", told)
 
     def test_a_key_of_another_table_is_proposed_where_the_problem_and_the_method_have_it(self):
         self.write("typed.toml", '[problem]\nname = "formula"\ncoordinates = ["x"]\nmomenta = ["p"]\n'

@@ -44,7 +44,7 @@ section = { expression = "x", direction = 0 }
         for jumping in ["1/x", "x/abs(x)"]:
             found = self.summary("o.toml", "--set", f'run.section={{expression="{jumping}",direction=0}}')["section"]
             self.assertEqual(found["points"], 0, jumping)
-            self.assertEqual(found["message"], "13 changes of sign were no zeros: the expression jumps there, or has a pole")
+            self.assertEqual(found["message"], "13 changes of sign were not zeros: the expression jumps or has a pole there")
         found = self.summary("o.toml", "--set", 'run.section={expression="tan(x)",direction=0}')["section"]
         self.assertEqual(found["points"], zeros)
         self.assertLess(found["max_residual"], 1e-14)
@@ -112,7 +112,7 @@ section = { coordinate = "p_x", direction = 0 }
             ("{ expression = '2 + lambda' }", "which is the same for every state"),
             ("{ expression = 'q1', coordinate = 'q1' }", "found coordinate and expression together; allowed one of them"),
             ("{ value = 1 }", "found neither coordinate nor expression; allowed one of them"),
-            ("{ expression = 'q1 +' }", "column 5: the end where a number has to be"),
+            ("{ expression = 'q1 +' }", "column 5: a number is missing before the end"),
         ):
             text = self.hamflow("run", "b.toml", "--set", f"run.section={section}", "--out", "none", status=2).stderr
             self.assertIn(words, text, section)
@@ -181,7 +181,7 @@ section = { coordinate = "p_x", direction = 0 }
         for value, words in (
             ("{ theta = 'atan2(q2)' }", "output.observables.theta: found"),
             ("{ theta = 'q4' }", "did you mean"),
-            ("{ theta = 1 }", "allowed a text that is not empty"),
+            ("{ theta = 1 }", "allowed a non-empty text"),
             ("{ q1 = 'q2' }", "found the name q1, which a column of every run has"),
             ("{ 'a/b' = 'q2' }", "allowed letters, digits and _"),
         ):

@@ -313,7 +313,7 @@ class Gas(GasCase):
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
                 ('start = "corner"\nscale = 1\ncutoff = 0.4\ncontainer = { kind = "periodic", size = [2, 1] }',
-                 "particles 4 and 16 at images of one point"),
+                 "particles 4 and 16 at images of the same point in the periodic box"),
                 ('wall_rule = "mirror"', "walls"),
                 ("initial = { q = [0, 0, 0, 0], p = [0, 0, 0, 0] }", "particles 1 and 2 at one point"),
                 ("particle = 3", "did you mean")):
@@ -350,7 +350,7 @@ class Gas(GasCase):
             s = self.gas("container = { radius = 1.45 }", "--set", "run.dt=0.1", "--set", "run.steps=50", "--set",
                          f"run.arithmetic={arithmetic}", status=1)
             self.assertEqual((s["status"], s["error"]["kind"]), ("failed", "outside"), arithmetic)
-            self.assertRegex(s["error"]["message"], r"step \d+, from t = \S+: particle \d+ stood on the soft wall")
+            self.assertRegex(s["error"]["message"], r"step \d+, from t = \S+: particle \d+ was on or beyond the soft wall")
             self.assertIn("exponent", s["error"]["hint"])
             self.assertIn("dt", s["error"]["hint"])
         for method in ("rk4", "gauss(2)", "cg(2,4)"):
@@ -377,12 +377,12 @@ class Gas(GasCase):
         in_double = self.summary(*case, status=1)["error"]
         error = self.summary(*case, *lattice, status=1)["error"]
         self.assertEqual((error["kind"], error["step"]), ("outside", 22))
-        self.assertIn("particle 109 stood on the soft wall or beyond it", error["message"])
+        self.assertIn("particle 109 was on or beyond the soft wall", error["message"])
         self.assertIn("larger exponent", error["hint"])
         self.assertEqual(error, in_double)
         listing = self.summary(*case, *lattice, "--set", "problem.scale='listing'", status=1)["error"]
         self.assertEqual((listing["kind"], listing["step"]), ("outside", 23))
-        self.assertRegex(listing["message"], r"particle \d+ stood .* in double \d steps? further on: the lattice has no integer")
+        self.assertRegex(listing["message"], r"particle \d+ was on or beyond .* in double \d steps? later: the lattice has no integer")
         narrow = self.summary(*case, *lattice, "--set", "run.dt=0.0005", "--set", "run.steps=60", "--set",
                               "run.lattice={position='2^-52', momentum='2^-62'}", status=1)["error"]
         self.assertEqual(narrow["kind"], "lattice_overflow")

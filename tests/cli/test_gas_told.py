@@ -193,14 +193,14 @@ class Told(CommandCase):
                 ("taylor", ["problem.cutoff=1"], None, True), ("taylor", [periodic, "problem.cutoff=1"], 'found kind = "periodic"', True)):
             with self.subTest(f"{method} {keys}"):
                 told = self.told("gas.toml", f"method.name={method}", *keys)
-                only = told.split(" is one only ")[1].split("; ")[0]
+                only = told.split(" meets this ")[1].split("; ")[0]
                 self.assertEqual(found is not None, f'with container = {{ kind = "none" }} ({found})' in only, only)
                 self.assertEqual("without cutoff" in only, cutoff, only)
-                self.assertNotIn("is none", told)
+                self.assertNotIn("does not meet this", told)
                 taken = [key for key in keys if "cutoff" not in key or not cutoff] + ([free] if found else [])
                 self.told("gas.toml", f"method.name={method}", *[key for key in taken if not found or key != periodic], status=0)
         told = self.hamflow("compare", "gas.toml", "--methods", "verlet,eg", "--out", "none", status=2).stderr
-        self.assertIn('one only with container = { kind = "none" }', told)
+        self.assertIn('meets this only with container = { kind = "none" }', told)
 
     def test_places_of_particles_outside(self):
         """Nobody has typed a start: it is the container's key, or where it would stand."""

@@ -61,11 +61,11 @@ class Large(CommandCase):
     def test_what_needs_a_matrix_is_refused(self):
         scenario = self.cluster(200, 'name = "cg"\ndiagnostics = true')
         said = self.hamflow("run", scenario, "--out", "none", status=2).stderr
-        self.assertIn("unknowns, and above 500 they are found without a tangent", said)
+        self.assertIn("unknowns; more than 500 are solved without a Jacobian", said)
 
     def test_it_is_said(self):
         for name in ("cg", "gauss", "avf", "implicit-midpoint"):
-            self.assertIn("systems of more than 500 unknowns take fixed-point", self.hamflow("show", name).stdout)
+            self.assertIn("systems of more than 500 unknowns use fixed-point", self.hamflow("show", name).stdout)
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ class Shell(CommandCase):
     def test_who_is_outside(self):
         self.write("gas.toml", "[problem]\nname='gas'\nparticles_per_side=11\n[method]\nname='stv4'\n[run]\ndt=0.01\nsteps=1\n")
         self.shell("step 30\n", scenario="gas.toml", status=1)
-        self.assertIn("step 22, from t = 0.21: particle 109 stood on the soft wall", self.stderr)
+        self.assertIn("step 22, from t = 0.21: particle 109 was on or beyond the soft wall", self.stderr)
 
     def test_a_method_that_walls_refuse(self):
         self.write("wall.toml", "[problem]\nname = 'harmonic'\ninitial = { q = [0], p = [1] }\n"

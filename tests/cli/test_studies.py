@@ -93,7 +93,7 @@ class StartOfEnergy(CommandCase):
 
     def test_no_root(self):
         text = self.refused("problem.initial.energy=0.001")
-        self.assertIn("problem.initial.energy: found 0.001, but no p[0] has it: along p[0] H is at least 0.00966", text)
+        self.assertIn("problem.initial.energy: found 0.001, but no p[0] has this energy: along p[0] H is at least 0.00966", text)
 
     def open_formula(self, hamiltonian, energy, sign):
         return ('name = "formula"\ncoordinates = ["q"]\n'
@@ -127,7 +127,7 @@ class StartOfEnergy(CommandCase):
                 self.write("own.toml", f"[problem]\n{self.open_formula(hamiltonian, energy, sign)}\n"
                                        "[method]\nname = 'rk4'\n[run]\ndt = 0.1\nsteps = 0\n")
                 text = self.refused(file="own.toml")
-                self.assertIn(f"no {word} root along p[0] can be told: H oscillates", text, hamiltonian)
+                self.assertIn(f"no {word} root along p[0] was found: H oscillates", text, hamiltonian)
 
     def test_wrong_requests(self):
         for sets, words in (

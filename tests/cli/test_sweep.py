@@ -84,7 +84,7 @@ section = { expression = "1/x", direction = 0 }
                                            "--json", "--quiet").stdout)["rows"]
             for row, q in zip(rows, (1, 2)):
                 single = self.summary("o.toml", *sets, "--set", f"problem.initial.q[0]={q}")
-                self.assertIn("were no zeros", single["section"]["message"])
+                self.assertIn("were not zeros", single["section"]["message"])
                 self.assertEqual(row["section"], single["section"])
                 self.assertEqual(row.get("event_notes"), single.get("event_notes"))
         self.assertIn("no zero", rows[0]["event_notes"][0])

@@ -29,7 +29,7 @@ class Threads(CommandCase):
             self.assertIn("error: run.threads: found", said)
             self.assertIn(words, said)
         said = self.hamflow("run", "kepler.toml", "--out", "none", "--set", "run.threads=2", status=2).stderr
-        self.assertIn("error: run.threads: found 2; a step of central-force is too short to be shared; allowed 1", said)
+        self.assertIn("error: run.threads: found 2; a step of central-force is too short to be shared among threads; allowed 1", said)
         self.assertIn("n-body", said)
         self.hamflow("run", CLUSTER, "--out", "none", "--set", "run.threads=1", "--set", "run.arithmetic=double")
 

@@ -140,14 +140,14 @@ steps = 10
         s = self.summary(file, *jumps)
         self.assertEqual(s["events"]["user:event1"], 0)
         bounces = s["events"]["wall:x:min"] + s["events"]["wall:x:max"]
-        sentence = f"event1: {bounces} changes of sign were no zeros: the expression jumps there, or has a pole"
+        sentence = f"event1: {bounces} changes of sign were not zeros: the expression jumps or has a pole there"
         self.assertEqual(s["event_notes"], [sentence])
         self.assertIn(sentence, self.hamflow("run", file, *jumps, "--out", "none").stdout)
         self.assertNotIn("event_notes", self.summary(file, "--set", "run.events=[{expression='x-0.5',direction=0}]"))
 
     def test_a_comparison_says_which_wall(self):
         for rule, dt, words, hint in (
-                ('wall_rule = "soft"\nstrength = 1e-9\nexponent = 2', "0.7", "x stood on a soft wall or beyond it",
+                ('wall_rule = "soft"\nstrength = 1e-9\nexponent = 2', "0.7", "x was on or beyond a soft wall",
                  "a larger exponent"),
                 ('wall_rule = "mirror"', "1300", "more than 1000 bounces in one step, the last off the wall of x",
                  "pressed onto a wall")):

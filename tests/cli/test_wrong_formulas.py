@@ -23,7 +23,7 @@ class Wrong(FormulaCase):
             ("(p_x^2 + p_y^2)/2 + x/0", "divided by 0"),
             ("(p_x^2 + p_y^2)/2 + 9^9^9^9", "column"),
             ("(p_x^2 + p_y^2/2", "')'"),
-            ("", "a text that is not empty"),
+            ("", "a non-empty text"),
         ):
             found, text = self.errors(HENON.replace("(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + k*(x^2*y - y^3/3)", formula))
             self.assertEqual(len(found), 1, text)

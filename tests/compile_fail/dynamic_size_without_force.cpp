@@ -1,4 +1,4 @@
-// expect: for dynamic size velocity(p, v) and force(q, f) by hand
+// expect: for dynamic size velocity(p, v) and force(q, f)
 #include "hamflow/hamflow.hpp"
 
 /// Generic, so that dual numbers could pass through; but those of a system of any size would have no slopes.

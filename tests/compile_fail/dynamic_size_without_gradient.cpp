@@ -1,4 +1,4 @@
-// expect: one of dynamic size gives velocity and force, or gradient, by hand
+// expect: one of dynamic size must define velocity and force, or gradient
 #include "hamflow/hamflow.hpp"
 
 /// H whole, generic, of any size.

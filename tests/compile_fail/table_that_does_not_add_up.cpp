@@ -1,4 +1,4 @@
-// expect: the kicks and the drifts of a splitting table add up to 1 each
+// expect: the kicks and the drifts of a splitting table must each sum to 1
 #include "hamflow/hamflow.hpp"
 
 inline constexpr hamflow::SplittingTable nine_tenths{.name = "nine-tenths",

@@ -1,4 +1,4 @@
-// expect: the weights of a Runge-Kutta tableau add up to 1
+// expect: the weights of a Runge-Kutta tableau must sum to 1
 #include "hamflow/hamflow.hpp"
 
 inline constexpr hamflow::ButcherTableau<2> heun_with_wrong_weights{.name = "wrong",

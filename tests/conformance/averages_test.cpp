@@ -319,7 +319,7 @@ struct PointsInUse {
   void take(int& found) { points = found; }
   template <class T>
   void take(T& part) {
-    if constexpr (requires { part.mark(); }) part.archive(*this);
+    if constexpr (requires { part.current_rule(); }) part.archive(*this);
   }
 };
 

@@ -83,7 +83,7 @@ double allowed(int digits, const End& end, double log_growth) {
 /// What is refused is told in words, and only where a step is longer than so many sub-steps of the shortest length.
 void expect_refused(const End& end) {
   EXPECT_EQ(end.outcome, Outcome::not_converged);
-  EXPECT_NE(end.failure.find("too short to add up"), std::string::npos) << end.failure;
+  EXPECT_NE(end.failure.find("too short to change the state"), std::string::npos) << end.failure;
 }
 
 /// e = 1 - 1e-9 is the most. The start is the pericentre; the end, by Kepler's equation, what the mean anomaly says.

@@ -178,7 +178,7 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
       std::to_string(methods().size() - first_methods().size()) + " others (hamflow list methods)";
   EXPECT_EQ(message("verlett"), "found the method 'verlett" + first + others + "; did you mean verlet?");
   EXPECT_EQ(message("qqqqqqqqqqqq"), "found the method 'qqqqqqqqqqqq" + first + others);
-  EXPECT_EQ(message("cg(1,5"), "found 'cg(1,5', which lacks its closing parenthesis; allowed cg(1,5)");
+  EXPECT_EQ(message("cg(1,5"), "found 'cg(1,5' without a closing parenthesis; allowed cg(1,5)");
   EXPECT_EQ(message("stv4(2)"),
             "stv4: found an option without a name; allowed by name: step_control=VALUE, monitor=VALUE");
   const std::string points = "; allowed a whole number from 1 to 64, or \"auto\"";
@@ -191,7 +191,7 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
   EXPECT_EQ(message("cg(1,5,7)"),
             "cg: found more than 2 options without a name; allowed cg(degree, quadrature), the others by name: "
             "NAME=VALUE");
-  EXPECT_EQ(message("cg(1,degree=1)"), "cg: degree: found it twice; allowed once");
+  EXPECT_EQ(message("cg(1,degree=1)"), "cg: degree: found twice; allowed once");
   EXPECT_EQ(message("cg(tolerance=0)"), "cg: tolerance: found '0'; allowed a positive number");
   EXPECT_EQ(message("cg(tolerance=-1)"), "cg: tolerance: found '-1'; allowed a positive number");
   EXPECT_EQ(message("cg(stages=3)"),
@@ -204,7 +204,7 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
             "cg: iteration: found 'fixedpoint'; allowed newton, simplified, fixed-point, "
             "fixed-point-or-newton; did you mean fixed-point?");
   EXPECT_EQ(message("cg(2,iteration=fixed-point,diagnostics=true)"),
-            "cg: diagnostics: found true; allowed false, since a fixed-point iteration has no tangent");
+            "cg: diagnostics: found true; allowed false, since a fixed-point iteration has no Jacobian");
   EXPECT_EQ(message("gauss(11)"), "gauss: stages: found '11'; allowed a whole number from 1 to 10");
   EXPECT_EQ(message("gauss(2,4)").substr(0, 48), "gauss: found more than 1 options without a name;");
   EXPECT_EQ(message("avf(0)"), "avf: quadrature: found '0'" + points);
@@ -277,12 +277,12 @@ TEST(Catalog, RefusesWhatCannotBeRunAndSaysWhy) {
   request.arithmetic = "lattice";
   request.method = parse_method("rk4");
   const auto message = [&] { return test::message_of<Error>([&] { (void)make_simulation(request); }); };
-  EXPECT_NE(
-      message().find("method rk4 cannot run in lattice: an explicit Runge-Kutta step is no bijection of the lattice"),
-      std::string::npos)
+  EXPECT_NE(message().find(
+                "method rk4 cannot run in lattice: an explicit Runge-Kutta step is not a bijection of the lattice"),
+            std::string::npos)
       << message();
   request.method = parse_method("cg");
-  EXPECT_NE(message().find("an implicit step is no bijection of the lattice"), std::string::npos) << message();
+  EXPECT_NE(message().find("an implicit step is not a bijection of the lattice"), std::string::npos) << message();
   request.arithmetic = "octuple";
   EXPECT_NE(message().find("found 'octuple'; allowed double, compensated, double-double"), std::string::npos);
   request = pendulum_request();

@@ -208,9 +208,9 @@ TEST(FormulaTexts, AreCheckedByKey) {
   EXPECT_EQ(complaint({.coordinates = {"x"}, .kinetic = "p_x^2"}),
             "potential: found none; allowed hamiltonian, or kinetic and potential");
   EXPECT_EQ(complaint({.coordinates = {"x"}, .hamiltonian = "p_x^2", .potential = "x"}),
-            "hamiltonian: found it beside potential; allowed hamiltonian, or kinetic and potential");
+            "hamiltonian: found together with potential; allowed hamiltonian, or kinetic and potential");
   EXPECT_EQ(complaint({.coordinates = {"x"}, .kinetic = "p_x^2 + x", .potential = "x"}),
-            "kinetic: found x in it; allowed momenta, parameters and t; else hamiltonian");
+            "kinetic: found x in it; allowed momenta, parameters and t; otherwise give hamiltonian");
   EXPECT_EQ(complaint({.coordinates = {"sin"}, .hamiltonian = "1"}),
             "coordinates[0]: found the name sin, which is a function; allowed another name");
   EXPECT_EQ(complaint({.coordinates = {"x", "x"}, .hamiltonian = "1"}),

@@ -127,11 +127,11 @@ TEST(NewtonProgress, GoesOnWhileHidingTermsShrink) {
 }
 
 TEST(NewtonProgress, GuessesAreTrustedAfterThreeGoodOnesInARow) {
-  int wanted = good_guesses_wanted;
-  wanted = good_guesses_wanted_after(wanted, true);
-  wanted = good_guesses_wanted_after(wanted, true);
-  EXPECT_EQ(good_guesses_wanted_after(wanted, false), good_guesses_wanted);
-  EXPECT_EQ(good_guesses_wanted_after(wanted, true), 0);
+  int wanted = good_guesses_needed;
+  wanted = good_guesses_needed_after(wanted, true);
+  wanted = good_guesses_needed_after(wanted, true);
+  EXPECT_EQ(good_guesses_needed_after(wanted, false), good_guesses_needed);
+  EXPECT_EQ(good_guesses_needed_after(wanted, true), 0);
 }
 
 TEST(CorrectionSize, IsInUnitsOfNoise) {

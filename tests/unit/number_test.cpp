@@ -92,15 +92,15 @@ TEST(Number, EveryErrorNamesItsColumnWhatIsWrongAndWhatIsAllowed) {
   const std::string finite = "finite real numbers";
   const Wrong all[] = {
       // a number is missing
-      {"", 1, "the end where a number has to be", operands},
-      {"  ", 3, "the end where a number has to be", operands},
-      {"1 +", 4, "the end where a number has to be", operands},
-      {"2 ^ ", 5, "the end where a number has to be", operands},
-      {"3 * * 2", 5, "'*' where a number has to be", operands},
-      {"()", 2, "')' where a number has to be", operands},
-      {"sqrt()", 6, "')' where a number has to be", operands},
-      {"\"1\"", 1, "'\"' where a number has to be", operands},
-      {"2*π", 3, "'π' where a number has to be", operands},
+      {"", 1, "a number is missing before the end", operands},
+      {"  ", 3, "a number is missing before the end", operands},
+      {"1 +", 4, "a number is missing before the end", operands},
+      {"2 ^ ", 5, "a number is missing before the end", operands},
+      {"3 * * 2", 5, "a number is missing before '*'", operands},
+      {"()", 2, "a number is missing before ')'", operands},
+      {"sqrt()", 6, "a number is missing before ')'", operands},
+      {"\"1\"", 1, "a number is missing before '\"'", operands},
+      {"2*π", 3, "a number is missing before 'π'", operands},
       // an operator is missing
       {"2pi", 2, "no operator before pi", operators, "2*pi"},
       {"2 pi", 3, "no operator before pi", operators, "2*pi"},
@@ -118,7 +118,7 @@ TEST(Number, EveryErrorNamesItsColumnWhatIsWrongAndWhatIsAllowed) {
       {"1,5", 2, "',' in a number", "a point before decimals", "1.5"},
       {"1;5", 2, "';' after a complete number", operators + " or the end"},
       {"(1;5)", 3, "';' after a complete number", operators + " or ')'"},
-      {"π = 3", 1, "'π' where a number has to be", operands},
+      {"π = 3", 1, "a number is missing before 'π'", operands},
       {"1 = 1", 3, "'=' after a complete number", operators + " or the end"},
       // parentheses
       {"(1", 3, "the end before the ')' of (1", "')'"},
@@ -139,9 +139,9 @@ TEST(Number, EveryErrorNamesItsColumnWhatIsWrongAndWhatIsAllowed) {
       {"p + 1", 1, "the unknown symbol p", symbols, "pi"},
       {"sqrt 2", 1, "the function sqrt without parentheses", "sqrt(x)"},
       {"1 - atan2", 5, "the function atan2 without parentheses", "atan2(y, x)"},
-      {"atan2(1)", 8, "atan2 of one number", "atan2(y, x)"},
-      {"atan2(1, 2, 3)", 11, "atan2 of more than two numbers", "atan2(y, x)"},
-      {"sin(1, 2)", 6, "sin of more than one number", "sin(x)"},
+      {"atan2(1)", 8, "atan2 with one argument", "atan2(y, x)"},
+      {"atan2(1, 2, 3)", 11, "atan2 with more than two arguments", "atan2(y, x)"},
+      {"sin(1, 2)", 6, "sin with more than one argument", "sin(x)"},
       // literals
       {"1.2.3", 4, "a second point in a number", decimal},
       {".", 1, "'.' without digits", decimal},

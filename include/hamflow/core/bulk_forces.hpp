@@ -1,8 +1,8 @@
 // Forces and potential energy of all particles of a pair system in one call, with neighbour lists, registers and
-// threads. The bits are a function of the positions alone. Of each particle's neighbours in range, in the
-// order of particle numbers, the k-th is added to the (k mod 8)-th of eight partial sums, whatever the width of a
-// register, and nothing is fused. They then depend neither on threads nor on the instruction set, nor on when lists
-// were made.
+// threads. The bits are a function of the positions alone: the neighbours of a particle in range are taken in the order
+// of particle numbers, the k-th is added to the (k mod 8)-th of eight partial sums, whatever the width of a register,
+// and no operations are fused. The bits therefore depend neither on threads, nor on the instruction set, nor on the
+// time at which lists were made.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace hamflow {
 
-/// V = prefactor sum_{i<j} w_i w_j phi(S r_ij), S = length_scale. Lengths below are those of the potential, S r, but
-/// for `edges`, which are those of the coordinates.
+/// V = prefactor sum_{i<j} w_i w_j phi(S r_ij), S = length_scale. Lengths below are in the units of the potential, S r;
+/// `edges` are in the units of the coordinates.
 struct BulkPairSystem {
   enum class Law : unsigned char {
     lennard_jones,  // phi = factor ((sigma/r)^12 - attraction (sigma/r)^6)
@@ -42,19 +42,19 @@ struct BulkPairSystem {
   Cutoff cutoff = Cutoff::none;
   double radius = 0;                // R
   double inner = 0;                 // of smooth
-  std::array<double, 3> edges{};    // of the periodic box, whose middle is the origin; 0: not periodic
-  double skin = 0.3;                // of neighbour lists; no bit depends on it
-  bool rebuild_every_time = false;  // of neighbour lists, for tests
+  std::array<double, 3> edges{};    // of the periodic box, centred at the origin; 0: not periodic
+  double skin = 0.3;                // of neighbour lists; does not change a bit
+  bool rebuild_every_time = false;  // makes neighbour lists for every call, for tests
 };
 
-/// What the kernels are compiled for; `best` is the widest of them that this machine has.
+/// Instruction sets that the kernels are compiled for; `best` is the widest that this machine has.
 enum class BulkSet : unsigned char { sse2, avx2, avx512, best };
 
-/// The functions. Copies share lists, scratch memory and threads, and take turns; nothing large is copied. A call
-/// allocates nothing once the first list is made, unless a later list needs more room.
+/// Forces and potential of a BulkPairSystem. Copies share lists, scratch memory and threads and take turns, so that
+/// copying is cheap. After the first list is made, a call allocates only if a later list needs more room.
 class BulkForces {
  public:
-  /// @throws Error where a number is out of its range, naming it, or the machine lacks the instruction set
+  /// @throws Error if a number is out of its range (the message names it) or the machine lacks the instruction set
   explicit BulkForces(const BulkPairSystem& system, BulkSet set = BulkSet::best);
 
   /// Whether this machine has the instructions of a set.
@@ -64,14 +64,14 @@ class BulkForces {
   void force(const double* q, double* f) const;
   /// The same, and V.
   double force_and_potential(const double* q, double* f) const;
-  /// V; without a pass over pairs where q is that of a force that has computed it too, which those forces do after
-  /// which it was asked for before.
+  /// V. If the last force was evaluated at the same q and has computed V too, there is no pass over pairs. Forces
+  /// compute V once potential() has been called after a force.
   double potential(const double* q) const;
 
-  /// The bits do not depend on it. @throws Error when the system starts no more threads
+  /// The bits do not depend on the count. @throws Error if the system cannot start so many threads
   void use_threads(std::size_t count) const;
 
-  /// What has been done since the beginning.
+  /// Work since construction.
   struct Counts {
     std::uint64_t evaluations = 0;  // passes over the pairs
     std::uint64_t lists = 0;        // made

@@ -1,5 +1,5 @@
-// Errors in a request. Each one is a value from the place that finds it to the place that prints it; no code parses the
-// printed sentence.
+// Errors in a request. An error is a value from the place that finds it to the place that prints it, so that no code
+// parses the printed sentence.
 #pragma once
 
 #include <compare>
@@ -10,15 +10,15 @@
 
 namespace hamflow {
 
-/// One thing wrong with a request.
+/// One error in a request.
 struct Complaint {
-  std::string file;  // that holds it; or the option that gave it, "--set", "--vary"; empty: neither
-  int line = 0;      // 0: it stands in no file
+  std::string file;  // the file at fault, or the option, "--set", "--vary"; empty: neither
+  int line = 0;      // 0: not in a file
   int column = 0;
-  std::string key;      // a dotted path, e.g. "problem.orbit.r_per"; an option, "--out"; a word of the usage, "METHOD"
+  std::string key;  // a dotted path, e.g. "problem.orbit.r_per"; an option, "--out"; a positional argument, "METHOD"
   std::string message;  // "found ...; allowed ...; did you mean ...?"
 
-  /// What gave it: file, or an option.
+  /// The file or the option at fault.
   std::string origin() const;
   /// FILE:LINE:COL: error: KEY: message; --set: error: KEY: message; --out: error: message; error: KEY: message.
   std::string text() const;
@@ -26,11 +26,11 @@ struct Complaint {
   auto operator<=>(const Complaint&) const = default;
 };
 
-/// A request that is not accepted, as an exception.
+/// The exception for a refused request.
 class Rejection : public Error {
  public:
   explicit Rejection(std::vector<Complaint> all);
-  /// One thing wrong with an option of a command, or a word of its usage.
+  /// One error in an option or positional argument of a command.
   Rejection(std::string option, std::string message);
   std::vector<Complaint> complaints;
 };

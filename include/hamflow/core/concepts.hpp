@@ -1,5 +1,5 @@
-// What a problem can offer, and what a method may require. A method that requires more than a problem offers does not
-// compile, and the message names the missing capability (tests/compile_fail).
+// Capabilities that problems offer and methods require. A method that requires a capability that the problem lacks does
+// not compile, and the message names the capability (tests/compile_fail).
 #pragma once
 
 #include <concepts>
@@ -11,8 +11,8 @@
 
 namespace hamflow {
 
-/// **Arithmetic**: what is stored and what is computed may be different types. Forces are evaluated in Real; positions
-/// and momenta live in Stored, which only needs to take the addition of a Real.
+/// **Arithmetic**: the type for storage may differ from the type for computation. Forces are evaluated in Real;
+/// positions and momenta are stored as Stored, which only needs addition of a Real.
 template <class A>
 concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real r) {
   { a.position.store(r) } -> std::same_as<typename A::Stored>;
@@ -23,8 +23,8 @@ concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real 
   { A::exact_undo } -> std::convertible_to<bool>;  // add(s, r); add(s, -r); restores every bit of s
 };
 
-/// **IntegerSums**: integers are stored, so that contributions, each rounded, are summed without rounding, and the sum
-/// does not depend on their order.
+/// **IntegerSums**: the stored numbers are integers. Each contribution is rounded to an integer once, and their sum is
+/// exact and independent of their order.
 template <class A>
 concept IntegerSums = Arithmetic<A> && std::integral<typename A::Stored> &&
     requires(A a, typename A::Stored s, typename A::Real r) {
@@ -63,7 +63,7 @@ using EnergyDual = Dual<typename P::Real, 2 * P::dimension>;
 }  // namespace detail
 
 /// **Problem**: a Hamiltonian and nothing else. `Real` is the type of its parameters, `dimension` the number of degrees
-/// of freedom; H is given whole, energy(q, p), or in its parts, kinetic(p) and potential(q).
+/// of freedom. The problem gives energy(q, p), or kinetic(p) and potential(q).
 template <class P>
 concept Problem = requires {
   typename P::Real;
@@ -71,13 +71,13 @@ concept Problem = requires {
 }
 &&(detail::HasEnergy<P> || detail::HasParts<P>);
 
-/// **Separable**: H = T(p) + V(q), with velocity(p, out) and force(q, out) by hand, or kinetic and potential as
-/// function templates that dual numbers can differentiate. A problem of dynamic size has to give velocity and force.
+/// **Separable**: H = T(p) + V(q), with velocity(p, out) and force(q, out) written by hand, or kinetic and potential as
+/// function templates that dual numbers differentiate. A problem of dynamic size must give velocity and force.
 template <class P>
 concept Separable = Problem<P> && detail::HasParts<P> &&
     ((HasVelocity<P> && HasForce<P>) || (detail::OfFixedSize<P> && detail::HasParts<P, GradientDual<P>>));
 
-/// **Differentiable**: dH/dq and dH/dp, by hand or by dual numbers. A separable problem is differentiable for free.
+/// **Differentiable**: dH/dq and dH/dp, written by hand or by dual numbers. Every separable problem is differentiable.
 template <class P>
 concept Differentiable = Problem<P> &&
     (Separable<P> || HasGradient<P> || (detail::OfFixedSize<P> && detail::HasEnergy<P, detail::EnergyDual<P>>));
@@ -88,14 +88,14 @@ concept QuadraticKinetic = Separable<P> && requires {
   requires P::quadratic_kinetic;
 };
 
-/// **TwiceDifferentiable**: V''(q), by hand or by nested dual numbers. A problem of dynamic size has to give
+/// **TwiceDifferentiable**: V''(q), written by hand or by nested dual numbers. A problem of dynamic size must give
 /// force_and_hessian or potential_hessian.
 template <class P>
 concept TwiceDifferentiable = Separable<P> &&
     (HasPotentialHessian<P> || HasForceAndHessian<P> ||
      (detail::OfFixedSize<P> && detail::HasParts<P, Dual<GradientDual<P>, P::dimension>>));
 
-/// **Smooth**: the whole Hessian of H, by hand or by nested dual numbers. Implicit methods for any H need it.
+/// **Smooth**: the whole Hessian of H, written by hand or by nested dual numbers. Implicit methods for any H need it.
 template <class P>
 concept Smooth = Differentiable<P> &&
     (HasHessian<P> || (QuadraticKinetic<P> && TwiceDifferentiable<P>) ||
@@ -110,7 +110,7 @@ template <class P>
 concept PairwiseForces = Separable<P> && requires(const P& problem, const typename P::Real& factor,
                                                   const detail::AnyDifference<typename P::Real>& difference,
                                                   std::size_t row, detail::AnyPairSink<typename P::Real>& sink) {
-  { problem.pair_rows() } -> std::convertible_to<std::size_t>;        // no coordinate is in more pairs than this
+  { problem.pair_rows() } -> std::convertible_to<std::size_t>;        // upper bound for the pairs of one coordinate
   { problem.pairs_in_row(row) } -> std::convertible_to<std::size_t>;  // for sharing the work
   problem.pair_kicks(factor, difference, row, row, sink);
 };
@@ -124,8 +124,8 @@ concept PairwiseGradients = PairwiseForces<P> &&
   problem.pair_gradient_kicks(factor, factor, v, difference, row, row, sink);
 };
 
-/// **Cyclic**: H does not depend on the last coordinate, and for its constant momentum the others are those of a
-/// QuadraticKinetic problem, reduced(p). Implicit elements then solve in the others alone.
+/// **Cyclic**: H does not depend on the last coordinate. For a fixed momentum of that coordinate, the other coordinates
+/// form a QuadraticKinetic problem, reduced(p). Implicit elements then solve for the other coordinates only.
 template <class P>
 concept Cyclic = Smooth<P> && requires(const P& problem, const VectorOf<P>& q, const typename P::Real& p) {
   typename P::Reduced;
@@ -133,7 +133,8 @@ concept Cyclic = Smooth<P> && requires(const P& problem, const VectorOf<P>& q, c
   { problem.cyclic_rate(VectorOf<typename P::Reduced>{}, p) } -> std::convertible_to<typename P::Real>;  // dH/dp_last
 };
 
-/// **ChargeInField**: a charged particle in a uniform field; canonical momenta are not those of the motion.
+/// **ChargeInField**: a charged particle in a uniform magnetic field; its canonical momentum differs from mass times
+/// velocity.
 template <class P>
 concept ChargeInField = Smooth<P> && requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
   problem.velocity_of(x, x, out);                              // v from (q, p)

@@ -1,9 +1,9 @@
-// **Constrained**: a Hamiltonian H = p^T M^-1 p/2 + V(q) with constraints g(q) = 0, which the motion keeps by forces
-// along the rows of g', q' = M^-1 p, p' = -V' - g'^T lambda.   [HLW2006, Sect. VII.1.1; Sonnleitner2010, p. 22]
+// **Constrained**: a Hamiltonian H = p^T M^-1 p/2 + V(q) with constraints g(q) = 0, kept by forces along the rows of
+// g': q' = M^-1 p, p' = -V' - g'^T lambda.   [HLW2006, Sect. VII.1.1; Sonnleitner2010, p. 22]
 //
 // Along a motion g' M^-1 p = 0 as well, and d^2 g/dt^2 = 0 gives the multipliers as functions of the state,
 //     (g' M^-1 g'^T) lambda = g'' (v, v) - g' M^-1 V',   v = M^-1 p.
-// A user's struct gives constraints(q) as a template over the number type and is differentiated by dual numbers.
+// A problem gives constraints(q) as a template over the number type; dual numbers differentiate it.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ template <class P>
 concept Constrained = Problem<P> && HasConstraints<P> &&
     (HasConstraintGradients<P> || (detail::OfFixedSize<P> && HasConstraints<P, GradientDual<P>>));
 
-/// g(q), as many numbers as there are constraints.
+/// g(q), one number for each constraint.
 template <Constrained P, class S, std::size_t N>
 Vector<S, dynamic> constraints(const P& problem, const Vector<S, N>& q) {
   const auto values = problem.constraints(q);
@@ -45,7 +45,7 @@ Gradients<S, N> constraint_gradients(const P& problem, const Vector<S, N>& q) {
   }
 }
 
-/// M^-1 x of a T quadratic in p; of H(q, p, t) the time does not move with it.
+/// M^-1 x for T quadratic in p; for H(q, p, t) the entries of the time are 0.
 template <class P, class S, std::size_t N>
 Vector<S, N> inverse_mass_times(const P& problem, const Vector<S, N>& x) {
   Vector<S, N> out = zeros_like(x);
@@ -72,8 +72,8 @@ Vector<S, dynamic> products(const Gradients<S, N>& rows, const Vector<S, N>& x) 
   return all;
 }
 
-/// lambda with (rows M^-1 rows^T) lambda = right: elimination without pivots, as for every positive definite matrix, so
-/// that there is nothing to decide and a recording stays valid.   [Higham2002, Sect. 10.1]
+/// lambda with (rows M^-1 rows^T) lambda = right: elimination without pivoting, which a positive definite matrix does
+/// not need. There are no branches, so a recording stays valid.   [Higham2002, Sect. 10.1]
 /// @param with_mass M^-1 of each row
 template <class S, std::size_t N>
 Vector<S, dynamic> multipliers(const Gradients<S, N>& rows, const Gradients<S, N>& with_mass,

@@ -1,5 +1,5 @@
-// Random numbers without a state: the k-th number of a seed is a function of (seed, k), so that a state drawn in one
-// test is the same in every test, thread and order of evaluation.   [SteeleLeaFlood2014, SplitMix64]
+// Random numbers without a state: the k-th number of a seed is a function of (seed, k), hence the same in every test,
+// thread and order of evaluation.   [SteeleLeaFlood2014, SplitMix64]
 #pragma once
 
 #include <cstdint>

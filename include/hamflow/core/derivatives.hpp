@@ -1,6 +1,6 @@
-// The derivatives of a Hamiltonian, by hand where the problem gives them, by dual numbers where it does not. Methods
-// call these functions and never the members. S is the working number type: a problem with double parameters can be
-// evaluated in dual numbers over double.
+// The derivatives of a Hamiltonian: the problem's own functions if it has them, otherwise dual numbers. Methods call
+// these functions and never the members of a problem. S is the working number type: a problem with double parameters
+// can be evaluated in dual numbers over double.
 #pragma once
 
 #include "hamflow/core/concepts.hpp"
@@ -43,7 +43,7 @@ namespace detail {
 /// The gradient of f at x, carried by dual numbers.
 template <class F, class S, std::size_t N>
 void differentiate(const F& f, const Vector<S, N>& x, Vector<S, N>& out) {
-  static_assert(N != dynamic, "hamflow: a problem of dynamic size has to give its velocity and force by hand");
+  static_assert(N != dynamic, "hamflow: a problem of dynamic size must define velocity and force");
   Vector<Dual<S, N>, N> seeded{};
   for (std::size_t k = 0; k < N; ++k) seeded[k] = Dual<S, N>::variable(x[k], k);
   out = f(seeded).slope;
@@ -70,9 +70,9 @@ void force(const P& problem, const Vector<S, N>& q, Vector<S, N>& f) {
   }
 }
 
-/// v = factor dT/dp, the increment of a drift. A problem that gives it multiplies its constants by the factor instead
-/// of the result: one dependent operation less from one force to the next. Odd in the factor, like the product, bit for
-/// bit.
+/// v = factor dT/dp, the increment of a drift. A problem that defines it multiplies its constants by the factor instead
+/// of the result, which makes the chain of dependent operations between two forces shorter by one. It is odd in the
+/// factor, bit for bit, like the product.
 template <class P, class F, class S, std::size_t N>
 void scaled_velocity(const P& problem, const F& factor, const Vector<S, N>& p, Vector<S, N>& v) {
   if constexpr (HasScaledVelocity<P, F, S>) {
@@ -114,7 +114,7 @@ void potential_hessian(const P& problem, const Vector<S, N>& q, Matrix<S, N>& ou
   }
 }
 
-/// Both at once: they share their square roots and divisions.
+/// Force and Hessian together, because they share square roots and divisions.
 template <class P, class S, std::size_t N>
 void force_and_hessian(const P& problem, const Vector<S, N>& q, Vector<S, N>& f, Matrix<S, N>& hessian) {
   if constexpr (HasForceAndHessian<P, S>) {
@@ -151,8 +151,8 @@ void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Ve
   }
 }
 
-/// T of H = T(p) + V(q), else p . dH/dp: how much of H a motion exchanges. A problem behind virtual calls, which knows
-/// at run time whether H is T + V, says it itself.
+/// T if H = T(p) + V(q), else p . dH/dp: the scale of the energy that a motion exchanges. A problem behind virtual
+/// calls computes it itself, since it knows only at run time whether H is T + V.
 template <class P, class S, std::size_t N>
 S kinetic_part(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p) {
   if constexpr (requires { problem.kinetic_part(q, p); }) {
@@ -169,8 +169,8 @@ S kinetic_part(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p) {
   }
 }
 
-/// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Inlined by force, as it belongs into loops over steps,
-/// where the state would otherwise go through memory.
+/// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Always inlined: in a loop over steps, a call would pass the
+/// state through memory.
 template <class P, class S, std::size_t N>
 [[gnu::always_inline]] inline void motion(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p,
                                           Vector<S, N>& dq, Vector<S, N>& dp) {

@@ -1,6 +1,6 @@
 // Dual numbers: a value and its derivatives in N directions, carried exactly through + - * / and the elementary
-// functions. Nested, Dual<Dual<R, N>, N> carries second derivatives. They differentiate Hamiltonians that come without
-// a gradient, check those that come with one, and give the Jacobian of a whole step for the verification.
+// functions. Nested, Dual<Dual<R, N>, N> carries second derivatives. They differentiate Hamiltonians without a
+// gradient, check gradients written by hand, and give the verification the Jacobian of a whole step.
 #pragma once
 
 #include <cstddef>
@@ -71,13 +71,13 @@ constexpr Dual<T, N> chain(const Dual<T, N>& x, const T& value, const T& factor)
   for (std::size_t k = 0; k < N; ++k) y.slope[k] = factor * x.slope[k];
   return y;
 }
-/// The same by the row of a function (detail/core/operation.hpp).
+/// f(x) with the derivative from the table of functions (detail/core/operation.hpp).
 template <class T, std::size_t N>
 Dual<T, N> follow_rule(Operation function, const Dual<T, N>& x, const T& value) {
   const DerivativeRule<T> rule = derivative_rule(function, x.value, value, T(1));
   return chain(x, value, rule.divides ? T(T(1) / rule.by) : rule.by);
 }
-/// Whether no derivative is carried.
+/// Whether S carries no derivative.
 template <class S>
 bool carries_nothing(const S& x) {
   if constexpr (IsDual<S>::value) {
@@ -159,7 +159,7 @@ template <class T, std::size_t N, class U>
 requires ConstantFor<T, N, U>
 constexpr Dual<T, N> operator/(const U& a, const Dual<T, N>& b) { return Dual<T, N>(T(a)) / b; }
 
-// Comparisons look at the value: a branch takes the derivative of the side it takes.
+// Comparisons compare values; derivatives follow the branch that is taken.
 template <class T, std::size_t N>
 constexpr bool operator<(const Dual<T, N>& a, const Dual<T, N>& b) {
   return a.value < b.value;
@@ -194,7 +194,7 @@ template <class T, std::size_t N>
 Dual<T, N> pow(const Dual<T, N>& x, const base_scalar<T>& y) {
   return detail::chain(x, T(pow(x.value, y)), T(y) * T(pow(x.value, y - base_scalar<T>(1))));
 }
-/// x^y; by way of the logarithm where y carries derivatives.
+/// x^y; computed with the logarithm if y carries derivatives.
 template <class T, std::size_t N>
 Dual<T, N> pow(const Dual<T, N>& x, const Dual<T, N>& y) {
   if (detail::carries_nothing(y)) return pow(x, value_of(y));

@@ -1,4 +1,4 @@
-// Misuse is an exception with a full sentence; numerical trouble is a value (outcome.hpp).
+// Misuse throws an exception with a full message; a numerical failure is a value (outcome.hpp).
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 namespace hamflow {
 
-/// The request was wrong: what was given, what is allowed, what to do.
+/// The request was wrong. The message says what was given, what is allowed and what to do.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -39,7 +39,7 @@ constexpr R larger(R a, R b) {
   return a < b ? b : a;
 }
 
-/// log2 |x| to the digits of a double, of numbers far beyond its range too; -infinity for 0.
+/// log2 |x| with the digits of a double, also for numbers beyond its range; -infinity for 0.
 template <class R>
 double binary_logarithm(const R& x) {
   return static_cast<double>(std::log2(static_cast<long double>(abs(x))));
@@ -56,7 +56,7 @@ S whole_power(const S& x, int n) {
   return n % 2 == 1 ? S(even * x) : even;
 }
 
-/// a > 0 ? b : c. Recordings have it without a branch (detail/core/tape.hpp).
+/// a > 0 ? b : c. Recordings compute it without a branch (detail/core/tape.hpp).
 template <class S>
 S choose(const S& a, const S& b, const S& c) {
   return S(0) < a ? b : c;

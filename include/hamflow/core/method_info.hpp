@@ -1,5 +1,5 @@
-// What a method claims about itself. The claims are tested: tests/conformance tries to refute each of them, and
-// `hamflow verify` prints them beside what was measured.
+// The claims of a method. tests/conformance tries to refute each claim, and `hamflow verify` prints claims beside
+// measurements.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// H(Psi_h(z)) = H(z), to rounding: for no Hamiltonian in general, as far as a quadrature is exact, or always.
+/// Whether H(Psi_h(z)) = H(z) to rounding: not in general, if the quadrature is exact, or always.
 enum class Conservation { no, up_to_quadrature, yes };
 
 constexpr std::string_view name(Conservation conservation) {
@@ -34,18 +34,18 @@ struct MethodInfo {
   bool symmetric = false;          // Psi_-h o Psi_h = id
   bool reversible = false;         // S Psi_h S Psi_h = id
   Conservation energy_conserving = Conservation::no;
-  int forces_per_step = 0;    // -dV/dq per step when none is computed twice; 0: depends on the iteration
-  bool own_substeps = false;  // a step is made of sub-steps whose lengths the method chooses
+  int forces_per_step = 0;    // evaluations of -dV/dq per step, without repeated ones; 0: depends on the iteration
+  bool own_substeps = false;  // the method divides a step into sub-steps of its own choice
   bool halves_steps = false;  // a step that does not converge is replaced by two half steps
-  bool carries_copy = false;  // a second copy of the state goes with the run: its properties are those of both
-  bool varies_steps = false;  // steps of varying length, and time a part of the state (detail/methods/step_density.hpp)
+  bool carries_copy = false;  // integrates a second copy of the state; the claims hold for both copies together
+  bool varies_steps = false;  // step lengths vary, and the time is part of the state (detail/methods/step_density.hpp)
   bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
 };
 
 /// Whether dt is the length of every step.
 inline bool takes_equal_steps(const MethodInfo& method) { return !method.own_substeps && !method.varies_steps; }
 
-/// How well conditioned Newton's method was in an implicit step; computed on request.   [Gross1999, figures 3.27, 3.28]
+/// Conditioning of Newton's method in an implicit step; computed on request.   [Gross1999, figures 3.27, 3.28]
 struct StepDiagnostics {
   struct Extremes {
     double least = std::numeric_limits<double>::infinity();
@@ -69,7 +69,7 @@ struct StepDiagnostics {
   };
   static constexpr double unset = std::numeric_limits<double>::quiet_NaN();  // before the first step
   double iterations = unset;                                                 // linear solves
-  double residual = unset;                                                   // the last one that was computed
+  double residual = unset;                                                   // the last one computed
   double condition_tangent = unset;                                          // cond_inf(K_T), of the last solve
   double determinant_tangent = unset;                                        // det(K_T)
   double condition_inverse_mass = unset;                                     // cond_inf(M^-1(q)) at the end of the step
@@ -96,7 +96,7 @@ struct Effort {
   long long steps = 0;          // implicit steps taken
   long long solves_min = 0;     // linear solves per step
   long long solves_max = 0;
-  long long stagnated = 0;  // steps accepted at the rounding level above the requested tolerance
+  long long stagnated = 0;  // steps accepted at rounding level although the residual is above the tolerance
   long long halved = 0;     // steps replaced by two half steps (on_divergence = "halve")
 
   template <class Archive>

@@ -4,7 +4,7 @@
 // Every error has the form
 //     found "2*pi/0", column 5: 2*pi divided by 0; allowed a divisor other than 0
 //     found "1 + sinus(2)", column 5: the unknown function sinus; allowed sqrt, exp, ...; did you mean sin?
-// so that a reader of options can pass it on after the name of its option. Columns count characters from 1.
+// so that a reader of options can put the name of the option in front of it. Columns count characters from 1.
 #pragma once
 
 #include <charconv>
@@ -31,7 +31,7 @@ inline double parse_decimal<double>(std::string_view text) {
   const char* const end = text.data() + text.size();
   const auto [behind, error] = std::from_chars(text.data(), end, value);
   if (error == std::errc() && behind == end) return value;
-  return std::strtod(std::string(text).c_str(), nullptr);  // what rounds to 0 or to infinity
+  return std::strtod(std::string(text).c_str(), nullptr);  // from_chars refuses numbers that round to 0 or to infinity
 }
 template <>
 inline long double parse_decimal<long double>(std::string_view text) {
@@ -50,8 +50,8 @@ bool is_literal(std::string_view text);
 /// The value of a formula of numbers in R: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), pi or Pi, parentheses, and the
 /// functions sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs. At most 10^6 characters, 10^4
 /// operations, and 200 nested signs, powers and parentheses.
-/// @throws Error naming the column where the text stops making sense, what was divided by zero, or what is not a finite
-/// real number in R
+/// @throws Error with the column of a syntax error, a division by zero, or a value that is not a finite real number in
+/// R
 template <class R>
 R evaluate_number(std::string_view text) {
   const bool negative = text.starts_with('-');
@@ -85,8 +85,8 @@ extern template double evaluate_number<double>(std::string_view);
 extern template long double evaluate_number<long double>(std::string_view);
 
 /// The whole number that a formula gives: "1e6", "10^6" and "2*500" are whole numbers.
-/// @throws Error as evaluate_number does, and when the value is not whole or beyond 2^53 in size, from where on a
-/// double is no longer every whole number
+/// @throws Error as evaluate_number does, and if the value is not whole or exceeds 2^53 in size, the limit up to which
+/// a double holds every whole number
 std::int64_t evaluate_whole(std::string_view text);
 
 /// The shortest decimal that reads back as the same double.

@@ -22,7 +22,7 @@ struct PhasePoint {
       p[i] = arithmetic.momentum.store(p_values[i]);
     }
   }
-  /// The positions as numbers; a reference to them where they are stored as such, in a vector of any size.
+  /// The positions as numbers; a reference if they are stored as numbers in a vector of any size.
   decltype(auto) positions() const {
     if constexpr (N == dynamic && std::is_same_v<Stored, Real>) {
       return static_cast<const Vector<Real, N>&>(q);
@@ -64,7 +64,7 @@ struct PhasePoint {
   void push(const F& factor, const Vector<Real, N>& direction) {
     for (std::size_t i = 0; i < p.size(); ++i) arithmetic.momentum.add(p[i], factor * direction[i]);
   }
-  /// S z: the state with its momenta reversed.
+  /// S z: reverses the momenta.
   void negate_momenta() {
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = A::Axis::negated(p[i]);
   }

@@ -1,4 +1,4 @@
-// One declaration per problem; the command's help and checks, the documentation and the output files are made from it.
+// The declaration of a problem. The command's help and checks, the documentation and the output files are made from it.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@ namespace hamflow {
 /// A parameter of a problem is an option like any other; its default is a formula of numbers or "[...]".
 using ParameterInfo = OptionInfo;
 
-/// How many numbers an invariant has: one, one for each dimension of space, or as many as space has rotations.
+/// The number of components of an invariant: one, one per dimension of space, or one per rotation of space.
 enum class Components { one, space, rotations };
 
-/// What an invariant is a sum of. With it a momentum map is judged: its size times what rounding makes of each term
-/// bounds the error that rounding alone explains (verify/certificate.hpp).
+/// The kind of terms whose sum is the invariant. From it follows the bound of the error that rounding alone explains:
+/// the size of the sum times the rounding of each term (verify/certificate.hpp).
 enum class Terms {
-  other,          // the excursion is reported but not judged
+  other,          // the deviation is reported but not judged
   momentum,       // one momentum coordinate, such as p_phi
   momenta,        // momenta, such as the total momentum
   moments,        // products of a position and a momentum, such as x p_y - y p_x
-  centre_of_mass  // sum m x/M - P t/M; the problem has total_mass()
+  centre_of_mass  // sum m x/M - P t/M; the problem defines total_mass()
 };
 
 struct InvariantInfo {
@@ -40,45 +40,45 @@ struct InvariantInfo {
   Terms terms = Terms::other;
 };
 
-/// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them. With
-/// an empty kind the keys alone select it.
+/// A geometric start: the keys of `orbit` that it takes. All are required; `direction` is always allowed as well. If
+/// the kind is empty, the keys select the start.
 struct StartInfo {
   std::string kind;
   std::vector<std::string> keys;
   std::string meaning;
-  std::vector<std::string> derives{};  // parameters of the problem that follow from the start and must not be given
-  Texts example{};                     // a value for each key
-  Texts example_parameters{};          // that the example needs; empty: those of the problem's example
+  std::vector<std::string> derives{};  // parameters of the problem that the start determines; they must not be given
+  Texts example{};                     // value of each key
+  Texts example_parameters{};          // parameters for the example; empty: those of the problem's example
 };
 
-/// The frames in which a start can be: as it is given, and that of the centre of mass.
+/// The frames of a start: as it is given, or moved to the centre of mass.
 struct StartFrames {
   static constexpr const char* given = "given";
   static constexpr const char* barycentric = "barycentric";
 };
 
-/// Where `hamflow verify` measures a method: states in which the motion is bounded, regular and, where the problem is,
-/// nonlinear, far from turning points and apsides, where defects are largest. Missing parameters take their defaults.
+/// The states in which `hamflow verify` measures a method. Their motion is bounded, regular and, if the problem is,
+/// nonlinear, far from turning points and apsides, where errors are largest. Missing parameters take their defaults.
 struct RegionInfo {
   Texts parameters{};
-  std::vector<double> centre{};  // q, then p; empty: the default start, each coordinate moved a little
+  std::vector<double> centre{};  // q, then p; empty: the default start with each coordinate shifted slightly
   double spread = 0.1;           // random states: each coordinate uniform within centre +- spread
-  double step = 0.1;  // for structure and energy, a sixtieth of a period; no power of two, whose products do not round
-  double time = 2.5;  // over which the order is measured: neither a period nor an apsis
+  double step = 0.1;  // for structure and energy: 1/60 of a period; not a power of two, since its products do not round
+  double time = 2.5;  // for the order; neither a period nor the time of an apsis
 };
 
-/// The scenario that `hamflow new` prints. What is not given is that of the region: parameters, q and p, dt.
+/// The scenario that `hamflow new` prints. Missing parameters, q, p and dt are those of the region.
 struct ExampleInfo {
   Texts parameters{};
   std::vector<double> q{};
   std::vector<double> p{};
   double dt = 0;
   std::int64_t steps = 1000;
-  std::string start{};  // the kind of the geometric start that is active; empty: the state
-  Texts keys{};         // of ProblemInfo::keys those that are set, with their values; empty: the example of the key
+  std::string start{};  // the kind of the geometric start; empty: the start is a state
+  Texts keys{};         // values of some of ProblemInfo::keys; an empty value: the example of the key
 };
 
-/// A wall that belongs to the problem.
+/// A wall that is part of the problem.
 struct FixedWall {
   std::size_t coordinate = 0;
   std::string min;  // number expressions
@@ -88,51 +88,52 @@ struct FixedWall {
 struct ProblemInfo {
   std::string name;                                            // as in a scenario
   std::vector<std::pair<std::string, std::string>> variant{};  // keys that select among entries of one name
-  std::vector<std::string> default_choices{};  // keys of `variant`; without them a scenario means this entry
-  std::vector<std::string> example_choices{};  // keys that a scenario has to give; without them `new` takes this entry
-  /// The key of `variant` whose value names the chart, that is, the coordinates. Entries that differ in it alone are
-  /// one motion; all but the one in the reference chart have to_reference and from_reference
-  /// (detail/core/optional_functions.hpp). Empty: there are no other coordinates.
+  std::vector<std::string> default_choices{};  // keys of `variant`; a scenario without them selects this entry
+  std::vector<std::string> example_choices{};  // keys that a scenario must give; `new` without them selects this entry
+  /// The key of `variant` whose value names the chart, that is, the coordinates. Entries that differ only in the chart
+  /// describe the same motion; all except the reference chart define to_reference and from_reference
+  /// (detail/core/optional_functions.hpp). Empty: there is only one chart.
   std::string chart_key{};
-  /// The key of `variant` that takes "formula", too: the choice is then typed (run/catalog.hpp, typed_examples).
+  /// The key of `variant` that also accepts "formula": the user then types the formula (run/catalog.hpp,
+  /// typed_examples).
   std::string typed_choice{};
   std::string formula{};
   std::string reference{};
   std::vector<std::string> coordinates{};
   std::vector<std::string> angles{};  // coordinates with period 2 pi; they are not wrapped
   std::vector<ParameterInfo> parameters{};
-  /// The keys of [problem], in the order in which they are shown, where others than the parameters stand there.
+  /// The keys of [problem], in the order in which they are shown, if they are more than the parameters.
   std::span<const OptionInfo> keys{};
-  std::string file_key{};  // the one that names a file with the start; empty: there is none
+  std::string file_key{};  // the key that names a file with the start; empty: there is none
   std::vector<InvariantInfo> invariants{};
   std::vector<StartInfo> starts{};
-  /// Empty: the starts are chosen by the kind of `orbit`. Else this key of the problem counts them, 1, 2, ..., and
-  /// their keys stand beside it.
+  /// Empty: the kind of `orbit` selects the start. Otherwise this key of the problem selects it by number, 1, 2, ...,
+  /// and the keys of the starts are keys of [problem].
   std::string start_key{};
-  std::vector<std::string> default_q{};  // number expressions; empty: a scenario has to give a start
+  std::vector<std::string> default_q{};  // number expressions; empty: a scenario must give a start
   std::vector<std::string> default_p{};
-  /// The key that moves the centre of mass of a start to the origin and to rest (its words are those of
-  /// StartFrames), with its default; a start by `initial` stays as it is given unless the key says otherwise.
-  /// Without a name there is none. A problem that has it has to_barycentre() (detail/core/optional_functions.hpp).
+  /// The key that moves the centre of mass of a start to the origin, at rest (its words are those of StartFrames), with
+  /// its default. A start by `initial` is not moved unless the key is given. An empty name: there is no such key. A
+  /// problem with this key defines to_barycentre() (detail/core/optional_functions.hpp).
   OptionInfo frame{};
-  /// The name of the key that gives the start its velocities where `initial` is not given; empty: there is none.
+  /// The key that gives the velocities of the start if `initial` is not given; an empty name: there is none.
   OptionInfo velocities{};
-  std::vector<std::size_t> velocity_places{};  // the coordinates that it gives, others rest; empty: all, in order
-  std::vector<FixedWall> walls{};              // a scenario chooses their rule alone
-  RegionInfo region_at_walls{};                // a second region, of motion that meets them; without centre: none
+  std::vector<std::size_t>
+      velocity_places{};           // the coordinates with these velocities, others are at rest; empty: all, in order
+  std::vector<FixedWall> walls{};  // a scenario chooses only their rule
+  RegionInfo region_at_walls{};    // a second region, whose motion hits the walls; without centre: none
   std::vector<std::pair<std::string, std::string>> observables{};  // names and expressions, averaged in every run
-  bool two_bodies =
-      false;  // a planar relative motion: `bodies` may give two bodies in space, from which `mass` follows
+  bool two_bodies = false;  // a planar relative motion: `bodies` may give two bodies in space, which determine `mass`
   RegionInfo region{};
   ExampleInfo example{};
 };
 
-/// The keys of [problem] that give the problem, beside those of its choices and its start.
+/// The keys of [problem] that define the problem, apart from those of its variant and its start.
 inline std::span<const OptionInfo> keys_of(const ProblemInfo& info) {
   return info.keys.empty() ? std::span<const OptionInfo>(info.parameters) : info.keys;
 }
 
-/// The value of a selecting key in this entry; empty if it has no such key.
+/// The value of a variant key in this entry; empty if there is no such key.
 inline std::string choice_of(const ProblemInfo& info, const std::string& key) {
   for (const auto& [name, value] : info.variant) {
     if (name == key) return value;
@@ -140,7 +141,7 @@ inline std::string choice_of(const ProblemInfo& info, const std::string& key) {
   return {};
 }
 
-/// The parts of "[1, 2/3, atan2(1, 2)]", or the text itself when it is no list.
+/// The parts of "[1, 2/3, atan2(1, 2)]"; the text itself if it is not a list.
 inline std::vector<std::string> list_parts(const std::string& text) {
   if (text.empty() || text.front() != '[') return {text};
   std::vector<std::string> parts;
@@ -161,12 +162,12 @@ inline std::vector<std::string> list_parts(const std::string& text) {
   return parts;
 }
 
-/// Values by name, read in R from the given text, so that every arithmetic reads its own digits.
+/// Values by name, read in R from text, so that every arithmetic gets all of its digits.
 template <class R>
 class Parameters {
  public:
   Parameters() = default;
-  /// An empty text is a parameter that was not given.
+  /// An empty text means that the parameter was not given.
   explicit Parameters(const std::map<std::string, std::string>& texts) {
     for (const auto& [name, text] : texts) {
       if (text.empty()) continue;
@@ -202,10 +203,10 @@ struct Start {
   Vector<R, N> p{};
 };
 
-/// What is known of an orbit before it is integrated: names and values.
+/// Facts about an orbit that are known before integration: names and values.
 using OrbitFacts = std::vector<std::pair<std::string, std::variant<double, std::string, bool>>>;
 
-/// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
+/// A condition on a geometric start, left < right or left <= right. The message gives both sides if it fails.
 struct Condition {
   std::string key;        // the scenario key at fault
   std::string statement;  // e.g. "r_per <= r_aph"
@@ -215,7 +216,7 @@ struct Condition {
   bool holds() const { return strict ? left < right : left <= right; }
 };
 
-/// The conditions of one start, in the order in which they were stated.
+/// The conditions of a start, in the order in which they were added.
 class Conditions {
  public:
   template <class R>

@@ -1,5 +1,5 @@
-// Whether somebody wants to stop, asked within a step that takes long: the sub-steps of a reference solution of many
-// bodies are minutes in one step.
+// Cancellation of a long step: methods ask during a step whether the caller wants to stop, because the sub-steps of a
+// reference solution of many bodies can take minutes.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// While it lives, methods of this thread that ask are answered by goes_on, a few times a second.
+/// While this object exists, methods of this thread ask goes_on a few times per second whether to continue.
 class StopQuestion {
  public:
   explicit StopQuestion(const std::function<bool()>& goes_on)
@@ -16,19 +16,19 @@ class StopQuestion {
   ~StopQuestion() { here() = before_; }
   StopQuestion(const StopQuestion&) = delete;
   StopQuestion& operator=(const StopQuestion&) = delete;
-  /// While it lives, nobody is asked: of what has to be done whole, whoever wants to stop.
-  class Silence {
+  /// While this object exists, goes_on is not asked: for work that must be completed.
+  class Suspended {
    public:
-    Silence() : before_(std::exchange(here(), nullptr)) {}
-    ~Silence() { here() = before_; }
-    Silence(const Silence&) = delete;
-    Silence& operator=(const Silence&) = delete;
+    Suspended() : before_(std::exchange(here(), nullptr)) {}
+    ~Suspended() { here() = before_; }
+    Suspended(const Suspended&) = delete;
+    Suspended& operator=(const Suspended&) = delete;
 
    private:
     StopQuestion* before_;
   };
-  /// Once it is true it stays so.
-  static bool answered() { return here() != nullptr && here()->asked(); }
+  /// Whether the caller wants to stop; stays true once it is true.
+  static bool stop_requested() { return here() != nullptr && here()->asked(); }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,4 +1,4 @@
-// **Text of messages**: lists of names, and the name that was probably meant.
+// **Texts of messages**: lists of names, and proposals for misspelt names.
 #pragma once
 
 #include <iterator>
@@ -12,7 +12,7 @@ namespace hamflow {
 /// "a, b, c".
 std::string joined(std::span<const std::string> words, std::string_view separator = ", ");
 
-/// The same of `text_of(element)` for every element of a range.
+/// Joins text_of(element) for every element of a range.
 template <class Range, class TextOf>
 requires requires(const Range& range, const TextOf& text_of) { std::string(text_of(*std::begin(range))); }
 std::string joined(const Range& range, const TextOf& text_of, std::string_view separator = ", ") {
@@ -26,16 +26,16 @@ std::string joined(const Range& range, const TextOf& text_of, std::string_view s
   return all;
 }
 
-/// The parts of "verlet, cg(1,5), [1, 2]" without the spaces around them: commas within parentheses and brackets do not
-/// split.
+/// Splits "verlet, cg(1,5), [1, 2]" at commas outside parentheses and brackets, and removes the spaces around each
+/// part.
 std::vector<std::string> split_list(const std::string& text);
 
-/// The candidate nearest to `name` by edit distance, large and small letters alike, the first of several; else the
-/// first that begins with `name`, of three characters at least. Empty if none is near, that is if more than a third of
-/// the name (of four characters one), or all of it, would have to change.
+/// The candidate nearest to `name` by edit distance, ignoring case, the first of several; otherwise the first candidate
+/// that begins with `name`, if that has at least three characters. Empty if none is near, that is, if more than a third
+/// of the name (one of four characters) or all of it would have to change.
 std::string nearest(const std::string& name, std::span<const std::string> candidates);
 
-/// "; did you mean NAME?" with the nearest candidate, or nothing if none is near.
+/// "; did you mean NAME?" with the nearest candidate; empty if none is near.
 std::string suggestion(const std::string& name, std::span<const std::string> candidates);
 
 }  // namespace hamflow

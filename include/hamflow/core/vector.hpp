@@ -1,5 +1,5 @@
-// A vector of N numbers: the coordinates q or the momenta p of one system, or a force, or a row of a matrix. Either N
-// is a number, and the vector is stored in place, or it is `dynamic`, and the length is chosen at run time.
+// A vector of N numbers: coordinates q, momenta p, a force, or a row of a matrix. If N is a number, the vector is
+// stored in place; if N is `dynamic`, its length is chosen at run time.
 #pragma once
 
 #include <cstddef>
@@ -35,15 +35,14 @@ struct Vector {
 };
 
 namespace detail {
-/// What many numbers are kept in: those with a destructor of their own, of any number of digits, are not moved about.
+/// The storage of a dynamic vector. Numbers with a destructor (any number of digits) are not moved.
 template <class R>
 using Numbers = std::conditional_t<std::is_trivially_copyable_v<R> && std::is_trivially_destructible_v<R>,
                                    ShortArray<R>, std::vector<R, PoolAllocator<R>>>;
 }  // namespace detail
 
-/// A vector whose length is chosen at run time, a value like the others. A few numbers stand in place, and the memory
-/// of more comes from a pool, so that the temporaries of a step cost no call of the allocator once the first steps are
-/// taken.
+/// A vector whose length is chosen at run time, with value semantics. A few numbers are stored in place; the memory for
+/// more comes from a pool, so that temporaries call the allocator in the first steps only.
 template <class R>
 struct Vector<R, dynamic> {
   using value_type = R;
@@ -65,7 +64,7 @@ struct Vector<R, dynamic> {
   detail::Numbers<R> entry;
 };
 
-/// A square matrix of any size, row after row in one piece: m[row] is a pointer to its first entry.
+/// A square matrix of any size, stored row by row in one block; m[row] points to the first entry of a row.
 template <class R>
 struct Vector<Vector<R, dynamic>, dynamic> {
   using value_type = R;
@@ -88,7 +87,7 @@ struct Vector<Vector<R, dynamic>, dynamic> {
 template <class R, std::size_t N>
 using Matrix = Vector<Vector<R, N>, N>;
 
-/// Zeros; `size` is used for `dynamic` vectors only.
+/// A vector of zeros; `size` is used for `dynamic` vectors only.
 template <class R, std::size_t N>
 constexpr Vector<R, N> zeros([[maybe_unused]] std::size_t size) {
   if constexpr (N == dynamic) {
@@ -97,7 +96,7 @@ constexpr Vector<R, N> zeros([[maybe_unused]] std::size_t size) {
     return Vector<R, N>{};
   }
 }
-/// As many zeros as x has entries.
+/// A vector of zeros with the length of x.
 template <class R, std::size_t N>
 constexpr Vector<R, N> zeros_like(const Vector<R, N>& x) {
   return zeros<R, N>(x.size());

@@ -1,10 +1,10 @@
-// **Formulas as people type them**: "p^2/(2*m) + k*(1 - cos(q))" is read into a graph, and evaluated in any number
-// type. The grammar: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), the functions sqrt exp log sin cos tan asin acos
-// atan atan2 sinh cosh tanh abs, pi or Pi, parentheses, names, and
+// **Formulas as text**: "p^2/(2*m) + k*(1 - cos(q))" is read into a graph, and evaluated in any number type. The
+// grammar: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), the functions sqrt exp log sin cos tan asin acos atan atan2
+// sinh cosh tanh abs, pi or Pi, parentheses, names, and
 //     let r = sqrt(x^2 + y^2), u = 1/r in ...     names for what occurs several times
 //     sum(i, 1, n - 1, (x[i+1] - x[i])^2)         sums; an index is a whole expression of i, numbers, parameters
-// A text is read and nothing is run: it reaches the values that it names. Every error says at which column it is, what
-// was found, what is allowed, and the nearest name (src/core/text_place.hpp).
+// A text is parsed and never executed as code; it can use only the values that it names. Every error has the column,
+// what was found, what is allowed, and the nearest name (src/core/text_place.hpp).
 #pragma once
 
 #include <map>
@@ -19,25 +19,25 @@
 
 namespace hamflow {
 
-/// What a formula may name.
+/// The names that a formula may use.
 struct FormulaSymbols {
   /// In the order of their values: "x", "x[1]" (an entry of a list), "problem.initial.q[1]" (a key), "t" (the time).
   std::vector<std::string> names;
-  /// Those with a value that is known when the formula is read. Whole ones may stand in indices and in the limits of
-  /// sums; with all of them what is constant in a formula has to be finite.
+  /// Names with a value that is known when the formula is parsed. Whole values may be used in indices and limits of
+  /// sums; constant parts of a formula must be finite with these values.
   std::map<std::string, double> known{};
-  /// What the names are, in messages.
+  /// Word for the names in messages.
   std::string what = "names";
 };
 
-/// How long a formula may be.
+/// Limits of the length of a formula.
 struct FormulaLimits {
   static constexpr std::size_t characters = 100'000;
-  static constexpr std::size_t terms = 300'000;  // operations, those of all terms of sums counted
+  static constexpr std::size_t terms = 300'000;  // operations, counting all terms of sums
   static constexpr int nodes = 200'000;          // different operations
 };
 
-/// **Formula**: an expression with one value, read once. Copies share it.
+/// **Formula**: a parsed expression with one value. Copies share it.
 class Formula {
  public:
   Formula();
@@ -49,7 +49,7 @@ class Formula {
     using R = base_number<S>;
     return evaluate(formula::BoundCode<R>(code_, [](int) { return R(0); }), values);
   }
-  /// The same with its constants read before, for many states: `bind<R>()` once, then this.
+  /// The same with constants evaluated before, for many states: call `bind<R>()` once, then this.
   template <class R>
   formula::BoundCode<R> bind() const {
     return formula::BoundCode<R>(code_, [](int) { return R(0); });
@@ -85,12 +85,12 @@ class Formula {
   std::shared_ptr<const formula::Code> code_;
 };
 
-/// @throws Error at the column where the text makes no sense, and where what is constant is not finite
+/// @throws Error with the column of a syntax error or of a constant part that is not finite
 Formula parse_formula(std::string_view text, const FormulaSymbols& symbols);
 
 namespace formula {
-/// The same into a graph that has other expressions of the same symbols already. @return its node
-/// @param whole receives the known names whose values indices and limits of sums needed
+/// Parses into a graph that may already have other expressions of the same symbols. @return its node
+/// @param whole receives the known names whose values were needed for indices and limits of sums
 int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols,
               std::set<std::string>* whole = nullptr);
 }  // namespace formula

@@ -1,6 +1,6 @@
-// A Hamiltonian that is typed: the keys of the problem `formula`, and of `central-force` with potential = "formula".
+// Typed Hamiltonians: the keys of the problem `formula`, and of `central-force` with potential = "formula".
 //
-// Such a problem is an entry of the catalogue like any other, found by choices: formula_choices(texts) makes them,
+// Such a problem is an entry of the catalogue, found by choices: formula_choices(texts) makes them,
 // find_problem("formula", choices) (run/catalog.hpp) gives the entry, whose info() names its coordinates, parameters
 // and invariants. The choices have names, sizes of lists and the whole numbers that indices and sums need, but no other
 // values: members of a sweep that differ in parameters share one entry, and give their values with the request as for
@@ -33,10 +33,10 @@ struct FormulaKeys {
   static constexpr const char* manifold = "manifold";
   static constexpr const char* multiplier = "multiplier";
   static constexpr const char* central_potential = "V";  // of central-force
-  static constexpr const char* unknown = "?";            // a parameter's value that choices do not keep
+  static constexpr const char* unknown = "?";            // a parameter value that choices do not keep
 };
 
-/// What `central-force` calls a potential that is typed.
+/// The names of `central-force` for a typed potential.
 struct CentralKeys {
   static constexpr const char* problem = "central-force";
   static constexpr const char* key = "potential";
@@ -58,8 +58,8 @@ struct FormulaTexts {
   std::string constraint_form{};           // with constraints "manifold", which empty stands for, or "multiplier"
 };
 
-/// What is wrong with typed texts, and in which of them: "hamiltonian", "coordinates[1]", "invariants.L",
-/// "parameters.k". The message has the form "found ...; allowed ...; did you mean ...?".
+/// The error of a typed text, and the text at fault: "hamiltonian", "coordinates[1]", "invariants.L", "parameters.k".
+/// The message has the form "found ...; allowed ...; did you mean ...?".
 class FormulaError : public Error {
  public:
   FormulaError(std::string at, const std::string& message) : Error(message), key(std::move(at)) {}
@@ -68,31 +68,30 @@ class FormulaError : public Error {
 
 using Choices = std::map<std::string, std::string>;
 
-/// Whose potential V(r) is read: what messages call it, and whether V may depend on the time.
+/// The owner of a potential V(r): its name in messages, and whether V may depend on the time.
 struct CentralUse {
   std::string owner = CentralKeys::problem;
   bool has_time = true;
 };
 
-/// The choices of a typed problem, checked: every text can be read and differentiated.
+/// The choices of a typed problem, after checking that every text can be parsed and differentiated.
 /// @throws FormulaError
 Choices formula_choices(const FormulaTexts& texts);
-/// The same of `central-force`, potential = "formula": V of r and the parameters.
+/// The same for `central-force` with potential = "formula": V of r and the parameters.
 /// @param coordinates "cartesian" or "polar"
-/// @param use of another owner, such as the pair law of a gas   @throws FormulaError
+/// @param use for another owner, such as the pair law of a gas @throws FormulaError
 Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates,
                                 const CentralUse& use = {});
-/// A particle of mass `mass` in such a field, in the coordinates of the choices: the same as a whole Hamiltonian.
+/// The whole Hamiltonian of a particle of mass `mass` in such a potential, in the coordinates of the choices.
 FormulaTexts central_formula_texts(const Choices& choices);
-/// The field alone, p_r^2/2 + V(r).
+/// Only p_r^2/2 + V(r).
 FormulaTexts radial_formula_texts(const Choices& choices);
-/// Back: the texts that choices were made of; of parameters the values that choices keep, others "?".
+/// The texts from which choices were made; parameter values that choices do not keep are "?".
 FormulaTexts formula_texts(const Choices& choices);
 
-/// The texts of a problem of which H alone is given. Momenta are the names p, p1, p2 ... and p_x for a name x: they
-/// tell the coordinates, q, q1, q2 ... and x, in the order in which either first occurs. Every other name is a
-/// parameter.
-/// @throws FormulaError when there is no momentum
+/// The texts of a problem given only by H. The names p, p1, p2 ... and p_x for a name x are momenta. They determine the
+/// coordinates, q, q1, q2 ... and x, in the order of first occurrence. Every other name is a parameter.
+/// @throws FormulaError if there is no momentum
 FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters = {});
 
 }  // namespace hamflow

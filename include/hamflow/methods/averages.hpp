@@ -26,19 +26,19 @@ auto averages_for() {
 }
 }  // namespace detail
 
-/// Newton's matrix has as many rows and columns as a step has unknowns; of systems of more than these none is made.
+/// The largest number of unknowns of a step for which Newton's matrix is built.
 inline constexpr std::size_t most_dense_unknowns = 500;
-/// Corrections that a linearly convergent iteration may take where nothing else is said: with every one a tenth of the
-/// one before they are 100 digits, with nine tenths 4.
+/// The default limit of corrections for linearly convergent iterations. With a convergence factor of 1/10 this is 100
+/// digits, with 9/10 it is 4.
 inline constexpr int linear_iterations = 100;
 
-/// The recipe of both. Large systems take Iteration::fixed_point. Without second derivatives of H `iteration` has to be
-/// fixed_point. @throws Error when bound to a problem that has none, with another one
+/// The recipe of both. Large systems use Iteration::fixed_point. Without second derivatives of H `iteration` must be
+/// fixed_point. @throws Error when bound with another iteration to a problem without second derivatives
 struct Averages {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
-  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic, Capability::cyclic,
-                                         Capability::smooth};
+  static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic,
+                                                   Capability::cyclic, Capability::smooth};
   template <class P>
   static constexpr bool accepts = Differentiable<P>;
   AverageOptions options;
@@ -52,11 +52,11 @@ struct Averages {
   }
 
  private:
-  /// @throws Error with diagnostics, which are those of a tangent
+  /// @throws Error with diagnostics, which need the Jacobian
   static AverageOptions without_tangent(AverageOptions chosen) {
     if (chosen.element.diagnostics) {
       throw Error("systems of more than " + std::to_string(most_dense_unknowns) +
-                  " unknowns are solved without a tangent, of which diagnostics are");
+                  " unknowns are solved without a Jacobian, which diagnostics need");
     }
     if (chosen.element.iteration == Iteration::newton && chosen.element.max_iterations == CgOptions{}.max_iterations) {
       chosen.element.max_iterations = linear_iterations;

@@ -1,11 +1,11 @@
-// The Boris step for a charge in a uniform magnetic field: half a flight, a rotation of the velocity about the field,
-// half a flight.   [Boris1970; BirdsallLangdon1985, Sect. 4-4]
+// The Boris step for a charge in a uniform magnetic field: half a drift, a rotation of the velocity about the field,
+// half a drift.   [Boris1970; BirdsallLangdon1985, Sect. 4-4]
 //     x <- x + h v/2,   v <- rotated by v' = v + v x t, v <- v + v' x s, t = (h/2) omega, s = 2 t/(1 + t^2),   x <- x +
 //     h v/2
-// omega = charge field/mass. |v|, hence the energy, is conserved to rounding. In general the map preserves
-// volume and is not symplectic [QinEtAl2013]; in a uniform field, the only one here, it is symplectic, as measured.
-// Order 2, symmetric. Reversing the canonical momenta reverses neither the method nor the motion itself: the field
-// would have to be reversed too [Sonnleitner2010, footnote 21].
+// omega = charge field/mass. |v|, hence the energy, is conserved to rounding. In general the map preserves volume and
+// is not symplectic [QinEtAl2013]; in a uniform field, the only case here, it is symplectic, as measured. Order 2,
+// symmetric. Reversing the canonical momenta reverses neither the method nor the motion; the field must be reversed,
+// too [Sonnleitner2010, footnote 21].
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"
@@ -18,7 +18,7 @@ namespace hamflow {
 
 inline MethodInfo describe_boris() {
   return {.name = "boris",
-          .summary = "Boris push: half a flight, a rotation about the magnetic field, half a flight",
+          .summary = "Boris push: half a drift, a rotation about the magnetic field, half a drift",
           .reference = "Boris1970",
           .order = 2,
           .symplectic = true,
@@ -63,11 +63,11 @@ class BorisStep {
   }
 
  private:
-  /// double is rotated in long double and rounded once: roundings inside the rotation are partly the same in every step
-  /// (that of 2/(1 + t^2) is) and let the energy drift by 10^-3 roundings a step, as measured.
+  /// A double is rotated in long double and rounded once. In double some rounding errors of the rotation are the same
+  /// in every step (that of 2/(1 + t^2)) and make the energy drift by 10^-3 roundings per step, as measured.
   using Wide = std::conditional_t<std::is_same_v<Real, double>, long double, Real>;
 
-  /// What the rotation adds to v.
+  /// The increment of v by the rotation.
   static Vector<Real, n> rotated_by(const P& problem, const Base& h, const Vector<Real, n>& v) {
     const auto omega = problem.rotation();
     Vector<Wide, n> t = zeros<Wide, n>(v.size());
@@ -94,10 +94,11 @@ class BorisStep {
 /// The recipe of boris.
 struct Boris {
   static constexpr bool implicit = false;
-  static constexpr bool compensated = true;  // the velocity is a difference of p and A(q): their rounding would add up
+  static constexpr bool compensated =
+      true;  // the velocity is a difference of p and A(q), whose rounding errors would accumulate
   static constexpr bool bijective = false;
   static constexpr bool typed = true;
-  static constexpr Capability faces[] = {Capability::charge};
+  static constexpr Capability capability_sets[] = {Capability::charge};
   template <class P>
   static constexpr bool accepts = ChargeInField<P>;
   template <class P, class A>

@@ -1,9 +1,9 @@
 // Energy-conserving Petrov-Galerkin finite elements in time, cg(1).   [Gross1999, (1.43), (1.44)]
 //     q1 - q0 = h int_0^1 H_p dalpha,   p1 - p0 = -h int_0^1 H_q dalpha   along the straight segment from z0 to z1.
-// Multiplied by p1 - p0 and q1 - q0 the two give int dH = 0: with exact quadrature H is conserved, exactly for
-// polynomials H of degree <= 2 s with s Gauss points, to the error of the quadrature else. Order 2, symmetric. s = 1 is
-// the implicit midpoint rule (symplectic, not energy-conserving). implicit/ holds the ways to solve a step: natural.hpp
-// with p eliminated, cyclic.hpp with a cyclic coordinate closed, general.hpp for any H. Increments are added with
+// Multiplied by p1 - p0 and q1 - q0 the two give int dH = 0. H is therefore conserved exactly for polynomials H of
+// degree <= 2 s with s Gauss points, and otherwise to the error of the quadrature. Order 2, symmetric. s = 1 is the
+// implicit midpoint rule (symplectic, not energy-conserving). Solvers for a step are in implicit/: natural.hpp
+// eliminates p, cyclic.hpp eliminates a cyclic coordinate, general.hpp works for any H. Increments are added with
 // compensation.
 #pragma once
 
@@ -30,7 +30,7 @@ auto element_for() {
 }  // namespace detail
 
 /// One step of cg(1).
-/// @tparam Element the equations as they are solved; by default the cheapest way that the problem allows
+/// @tparam Element the equations of the step; by default the cheapest that the problem allows
 template <class P, Arithmetic A, class Element = typename decltype(detail::element_for<P, typename A::Real>())::type>
 class ContinuousGalerkin : public ImplicitMethod<P, A, Element> {
  public:
@@ -38,14 +38,14 @@ class ContinuousGalerkin : public ImplicitMethod<P, A, Element> {
   ContinuousGalerkin(const P& problem, const CgOptions& options) : ImplicitMethod<P, A, Element>(problem, options) {}
 };
 
-/// The recipe of cg(1): Cg{CgOptions{.quadrature = 5}}; elements of higher degree, and other iterations than Newton's,
-/// are CgOfDegree (methods/averages.hpp). @throws Error when bound with a degree or an iteration that is not its own
+/// The recipe of cg(1): Cg{CgOptions{.quadrature = 5}}; for higher degrees and other iterations use CgOfDegree
+/// (methods/averages.hpp). @throws Error when bound with another degree or iteration
 struct Cg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
   static constexpr bool typed = true;
-  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic, Capability::cyclic,
-                                         Capability::smooth};
+  static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic,
+                                                   Capability::cyclic, Capability::smooth};
   template <class P>
   static constexpr bool accepts = Smooth<P>;
   CgOptions options{};
@@ -54,7 +54,7 @@ struct Cg {
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
     if (options.degree != 1 || options.iteration != Iteration::newton) {
-      throw Error("Cg is the element of degree 1 solved by Newton's iteration; for others take CgOfDegree");
+      throw Error("Cg supports only degree 1 with Newton's iteration; use CgOfDegree for others");
     }
     return Stepper<P, A>(problem, options);
   }

@@ -1,11 +1,11 @@
 // DOP853, the explicit Runge-Kutta method of Dormand and Prince of order 8 with 12 stages, and its step control by two
-// embedded formulas of orders 5 and 3.   [HNW1993, II.5, (II.10.17), and the code DOP853]
-// Non-geometric: it drifts. Here as a reference to compare against.
+// embedded formulas of orders 5 and 3.   [HNW1993, II.5, (II.10.17), and the code DOP853] It is not a geometric
+// integrator and its energy drifts. It serves as a reference for comparisons.
 //
-// One step advances by h in sub-steps tau. With the max-norms of the q- and of the p-block, each by itself,
+// One step advances by h in sub-steps tau. With separate max-norms for the q- and p-block,
 //     scale = max(|x0|, |x1|, |tau x0'|),   e_m = max over both blocks of |tau sum_i e^(m)_i k_i|/(tolerance scale),
 //     error = e_5^2/sqrt(e_5^2 + 0.01 e_3^2) <= 1,   next tau = tau clamp(0.9 error^(-1/8), 1/3, 6).
-// The term |tau x0'| keeps the scale off 0 where a block passes through it. The last proposal is kept for the next
+// The term |tau x0'| keeps the scale above 0 when a block passes through 0. The last proposal is kept for the next
 // step.
 #pragma once
 
@@ -29,7 +29,7 @@ namespace hamflow {
 
 namespace dop853 {
 
-/// The tableau in one arithmetic. Which entries are zero is known when the program is compiled.
+/// The tableau in one arithmetic. Its zero entries are known at compile time.
 template <class R>
 struct Coefficients {
   R a[stages][stages]{};
@@ -51,7 +51,7 @@ constexpr bool has_entry(std::size_t row, std::size_t column) {
   }
   return false;
 }
-/// The stages that count in b and in the error formulas: the same for all of them but two.
+/// Whether a stage has a weight in b and in the error formulas; all stages but two have.
 constexpr bool has_weight(std::size_t stage) {
   for (const Weight& w : b) {
     if (w.stage == stage) return true;
@@ -65,8 +65,8 @@ template <class P, Arithmetic A>
 class DormandPrince853 {
  public:
   static_assert(Differentiable<P>,
-                "hamflow: dop853 needs a Differentiable problem; one of dynamic size gives "
-                "velocity and force, or gradient, by hand");
+                "hamflow: dop853 needs a Differentiable problem; one of dynamic size "
+                "must define velocity and force, or gradient");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = dop853::stages;
   using Real = typename A::Real;
@@ -77,13 +77,13 @@ class DormandPrince853 {
 
   MethodInfo info() const { return describe_dop853(options_); }
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
-  /// Sub-steps taken, and sub-steps rejected, since the method was constructed.
+  /// The numbers of sub-steps taken and rejected since construction.
   long long substeps() const { return substeps_; }
   long long rejected() const { return rejected_; }
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
-  /// Repeats the step that failed and returns why it failed. Changes nothing.
+  /// Repeats the failed step and returns why it failed. Changes nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     DormandPrince853 again = *this;
     PhasePoint<A, n> copy = z;
@@ -92,7 +92,7 @@ class DormandPrince853 {
     return why;
   }
 
-  /// The memory is the length that the last sub-step proposed for the next one; 0: none.
+  /// Drops the length that the last sub-step proposed for the next one.
   void invalidate() { proposed_ = 0; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -124,7 +124,7 @@ class DormandPrince853 {
       derivative(problem, s.q0, s.p0, s.dq[0], s.dp[0]);
       double part = 0;
       for (bool repeated = false;; repeated = true) {
-        if (StopQuestion::answered()) {
+        if (StopQuestion::stop_requested()) {
           z = start;
           return Outcome::stopped;
         }
@@ -137,7 +137,7 @@ class DormandPrince853 {
         const Base tau = part == 1 ? h : exact_number<Base>(part) * h;
         attempt(problem, tau, s);
         const double error = error_of(tau, s, clocks_of(problem));
-        // Not a number: the sub-step left the domain of H.
+        // NaN: the sub-step left the domain of H.
         if (!(error <= 1)) ++rejected_;
         const double growth = error < 1e-12 ? 6.0 : 0.9 * std::pow(error, -1.0 / 8.0);
         proposal = part * (growth > 6 ? 6 : growth > 1.0 / 3.0 ? growth : 1.0 / 3.0);
@@ -168,7 +168,7 @@ class DormandPrince853 {
     [&]<std::size_t... i>(std::index_sequence<i...>) { (f.template operator()<i>(), ...); }
     (std::make_index_sequence<stages>{});
   }
-  /// All stages but the first, which is there, and the increments of the formula of order 8.
+  /// Computes all stages except the first, which is known, and the increments of the formula of order 8.
   void attempt(const P& problem, const Base& tau, Stages& s) {
     const dop853::Coefficients<Base>& c = *tableau_;
     const std::size_t size = s.q0.size();
@@ -211,7 +211,7 @@ class DormandPrince853 {
     ++substeps_;
   }
 
-  /// @param clocks last positions, which carry the time and are exact
+  /// @param clocks number of last coordinates that hold the time and are exact
   double error_of(const Base& tau, const Stages& s, std::size_t clocks) const {
     const double length = size_of(tau);
     double fifth = 0;
@@ -221,7 +221,7 @@ class DormandPrince853 {
     if (fifth == 0) return 0;
     return fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
   }
-  /// One block, its first `size` entries. The two errors become infinite where anything is not a number.
+  /// Compares the first `size` entries of a block. The errors become infinite if any number is NaN.
   void compare(double length, std::size_t size, const V& x0, const V& x1, const std::array<V, stages>& slopes,
                double& fifth, double& third) const {
     double scale = 0;
@@ -235,12 +235,12 @@ class DormandPrince853 {
       raise(e3, length * size_of(weighted(tableau_->error3, slopes, k)));
     }
     if (!(scale <= std::numeric_limits<double>::max())) e5 = std::numeric_limits<double>::quiet_NaN();
-    if (e5 == 0 && e3 == 0) return;  // also where the block is at rest in 0
+    if (e5 == 0 && e3 == 0) return;  // also if the block is at rest in 0
     const double tolerance = static_cast<double>(options_.tolerance);
     raise(fifth, e5 / (tolerance * scale));
     raise(third, e3 / (tolerance * scale));
   }
-  /// most <- max(most, x); a NaN stays.
+  /// most <- max(most, x); keeps NaN.
   static void raise(double& most, double x) {
     if (most == most && !(x <= most)) most = x;
   }
@@ -252,12 +252,13 @@ class DormandPrince853 {
   std::string reason(double part, double proposal, const Substeps& substeps) const {
     if (part == 0) {
       return "dop853 would need a sub-step of " + shortest(proposal) + " after " + shortest(substeps.done()) +
-             " of the step, too short to add up: is the motion near a collision or another singularity, or tolerance "
+             " of the step, which is too short to change the state. The motion may be near a collision or another "
+             "singularity, or tolerance "
              "= " +
-             shortest(static_cast<double>(options_.tolerance)) + " below the rounding of the arithmetic?";
+             shortest(static_cast<double>(options_.tolerance)) + " may be below the rounding of the arithmetic";
     }
     return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
-           shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";
+           shortest(substeps.done()) + " of the step; a shorter step or a larger tolerance helps";
   }
 
   void derivative(const P& problem, const V& q, const V& p, V& dq, V& dp) {
@@ -277,7 +278,7 @@ class DormandPrince853 {
 struct Dop853 {
   static constexpr bool implicit = false;
   static constexpr bool bijective = false;
-  static constexpr int digits = dop853::digits;  // an arithmetic with more would not get its order
+  static constexpr int digits = dop853::digits;  // with more digits the order would be limited by the coefficients
   template <class P>
   static constexpr bool accepts = Differentiable<P>;
   AdaptiveOptions options{};

@@ -2,10 +2,10 @@
 // bodies or about a centre.   [GrossBetschSteinmann2005]
 //     P_l = p0 + sum_j mu_lj L_j,   Q_l = q0 + sum_j mu_lj K_j,   K_l = h b_l M^-1 P_l,   L_l = h b_l F_l,
 //     z1 = z0 + sum_l (K_l, L_l),   mu_lj = a_lj/b_j of Gauss collocation,
-// with forces along the lines between the bodies: linear and angular momentum are kept, as quadratic invariants are by
-// collocation. One factor for each pair and step (radial_pair.hpp) makes the work that of the potential: so is the
-// energy. Order 2 k, symmetric, not symplectic. k = 1 is the scheme of [LaBuddeGreenspan1976].
-// Newton runs in L with the exact tangent.
+// with forces along the lines between the bodies, so that linear and angular momentum are conserved, as quadratic
+// invariants are by collocation. One factor for each pair and step (radial_pair.hpp) makes the work equal to the change
+// of the potential, so that the energy is conserved. Order 2 k, symmetric, not symplectic. k = 1 is the scheme of
+// [LaBuddeGreenspan1976]. Newton's method solves for L with the exact Jacobian.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,8 @@ class RadialCollocation : public TargetEquations<R> {
     EgOptions options;
     GaussStages<Real> stages;
     std::size_t space;
-    std::shared_ptr<const std::vector<RadialTerm<Real>>> terms;  // a block copies its method, and allocates nothing
+    std::shared_ptr<const std::vector<RadialTerm<Real>>>
+        terms;  // a block of steps copies its method without allocation
     RecordedLaw<Real> law;
     V inverse_mass;
     Setup(const P& problem, const EgOptions& chosen)
@@ -167,13 +168,13 @@ class RadialCollocation : public TargetEquations<R> {
 
  private:
   using Base::h_;
-  using D = Dual<Real, 3>;  // a slope for each direction of space
-  /// The sizes of what positions and velocities are summed from: what they round by, in units of epsilon.
+  using D = Dual<Real, 3>;  // a derivative for each direction of space
+  /// The sizes of the terms of positions and velocities, that is, their rounding in units of epsilon.
   struct Reach {
     Variables positions, velocities;
   };
 
-  /// y0 + sum_j mu_lj rows_j, as (y0 + y1)/2 + sum_j N_lj rows_j: symmetric in the two ends.
+  /// y0 + sum_j mu_lj rows_j, computed as (y0 + y1)/2 + sum_j N_lj rows_j, which is symmetric in the two ends.
   template <class S, std::size_t N>
   Vector<S, dynamic> stage_values(const Vector<S, N>& y0, const Vector<S, dynamic>& rows) const {
     const std::size_t size = y0.size();
@@ -202,7 +203,7 @@ class RadialCollocation : public TargetEquations<R> {
     }
     return all;
   }
-  /// M^-1 of each stage.
+  /// M^-1 times each stage.
   template <class S>
   Vector<S, dynamic> scaled(Vector<S, dynamic> v) const {
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = setup_.inverse_mass[i % q0_.size()] * v[i];
@@ -237,7 +238,7 @@ class RadialCollocation : public TargetEquations<R> {
     return taken;
   }
 
-  /// @param reach for the pair's noise, where it is of interest
+  /// @param reach for the noise of the pair; may be null
   template <class S>
   RadialPair<S> pair_of(const RadialTerm<Real>& term, const Vector<S, n>& q0, const Vector<S, dynamic>& positions,
                         const Vector<S, dynamic>& velocities, const Reach* reach = nullptr) const {
@@ -265,7 +266,7 @@ class RadialCollocation : public TargetEquations<R> {
     const std::size_t size = q0_.size();
     const Real two = Real(2) * term.strength;
     for (std::size_t l = 0; l < k_; ++l) {
-      const Real weight = detail::golden<Real>() * setup_.stages.b[l];
+      const Real weight = detail::golden_ratio<Real>() * setup_.stages.b[l];
       const Real bend = abs(two) * (abs(pair.law[l].first) + Real(2) * abs(pair.law[l].second) * pair.u[l]);
       for (std::size_t d = 0; d < setup_.space; ++d) {
         const Real push = two * pair.factor[l] * pair.r[l][d];
@@ -283,8 +284,8 @@ class RadialCollocation : public TargetEquations<R> {
     }
   }
 
-  /// dL_m moves the difference of velocities at point l by mu_lm delta, and that of positions by nu_lm delta, with
-  /// delta = M^-1 dL_m of the one body less that of the other.
+  /// dL_m changes the difference of velocities at point l by mu_lm delta, and that of positions by nu_lm delta, where
+  /// delta is M^-1 dL_m of one body minus that of the other.
   void add_tangent(const RadialTerm<Real>& term, const RadialPair<Real>& pair, Matrix<Real, dynamic>& tangent) const {
     const GaussStages<Real>& s = setup_.stages;
     const std::size_t size = q0_.size();
@@ -325,7 +326,7 @@ class RadialCollocation : public TargetEquations<R> {
     moved.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, strength_of(term));
     return moved;
   }
-  /// Over the reduced mass.
+  /// The strength divided by the reduced mass.
   Real strength_of(const RadialTerm<Real>& term) const {
     return term.strength *
            (setup_.inverse_mass[term.a] + (term.b == term.centre ? Real(0) : setup_.inverse_mass[term.b]));
@@ -354,7 +355,8 @@ class RadialCollocation : public TargetEquations<R> {
 struct Eg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
-  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic | Capability::radial};
+  static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic |
+                                                   Capability::radial};
   template <class P>
   static constexpr bool accepts = RadialForces<P>;
   EgOptions options{};

@@ -3,8 +3,8 @@
 // |V'|^2 = V'^T M^-1 V' with constant M. As vector fields, B = -V' d/dp and A = M^-1 p d/dq, [B, [A, B]] is
 // (|V'|^2)' d/dp: the kick is the flow of the potential b V - g h^2 |V'|^2. With F = -V',
 //     (|V'|^2)' = 2 V'' M^-1 V' = -2 V'' M^-1 F,
-// so that such a kick needs force and Hessian at one q. It is symplectic, and one-to-one on the lattice. In return
-// fourth order has no negative coefficients. A last kick equal to the first serves the next step.
+// so that such a kick needs force and Hessian at one q. It is symplectic, and one-to-one on the lattice. Its advantage
+// is fourth order without negative coefficients. A last kick equal to the first is reused by the next step.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace hamflow {
 
-/// The first and last action of a step is a kick without gradient.
+/// Whether the first and last action of a step are kicks without gradient.
 constexpr bool keeps_last_kick(const ForceGradientTable& table) {
   return !table.half[0].kick.empty() && table.half[0].gradient.empty();
 }
@@ -35,7 +35,7 @@ inline MethodInfo describe(const ForceGradientTable& table) {
           .summary = std::string("splitting with force gradient, ") +
                      (table.half[0].drift.empty() ? "kick first, " : "drift first, ") + std::to_string(hessians) +
                      (hessians > 1 ? " Hessians" : " Hessian") +
-                     " a step, for T quadratic in p with constant mass matrix",
+                     " per step, for T quadratic in p with constant mass matrix",
           .reference = std::string(table.reference),
           .order = table.order,
           .symplectic = true,
@@ -101,13 +101,13 @@ class ForceGradientStep {
   }
 
   static constexpr bool remembers_positions_alone = true;
-  /// The i-th position was mirrored, and so is what is kept of it.
+  /// Mirrors the kept kick after the i-th position was mirrored.
   void mirror_kept(std::size_t i) {
     if (i < force_.size()) force_[i] = -force_[i];
   }
-  /// To be called when the state was changed from outside.
+  /// To be called after the state was changed from outside.
   void invalidate() { force_is_current_ = false; }
-  /// How many threads compute the forces; the bits are the same for any number.
+  /// Sets the number of threads for the forces; the bits do not depend on it.
   void use_threads(std::size_t count) requires sums_integers { sums_.use_threads(count); }
   Effort effort() const { return {.force = forces_, .hessian = hessians_}; }
   template <class Archive>
@@ -126,8 +126,8 @@ class ForceGradientStep {
     bool has_gradient = false;
   };
 
-  /// On an integer lattice, rounded and summed pair by pair. M^-1 F is had from rounded integers as well, so that it
-  /// does not depend on the order of the pairs either: h M^-1 F from the kick of factor h, then 2 h^2 g V'' (h M^-1 F).
+  /// On an integer lattice, rounded and summed pair by pair. M^-1 F is computed from rounded integers, too, so that it
+  /// does not depend on the order of pairs: h M^-1 F from the kick of factor h, then 2 h^2 g V'' (h M^-1 F).
   void kick_by_pairs(const P& problem, const Base& h, const Action& action, bool first, PhasePoint<A, n>& z) {
     if constexpr (sums_integers) {
       if constexpr (n == dynamic) {
@@ -182,9 +182,9 @@ class ForceGradientStep {
   bool keeps_;
   bool force_is_current_ = false;
   [[no_unique_address]] typename detail::PairSumsOf<P, A, sums_integers>::type sums_;
-  Vector<Increment, n> kick_{};  // on the lattice: the last one, of a step of length kept_step_
+  Vector<Increment, n> kick_{};  // on the lattice: the last kick of a step of length kept_step_
   Base kept_step_{};
-  Vector<Real, n> force_{};  // of the last kick without gradient
+  Vector<Real, n> force_{};  // force of the last kick without gradient
   long long forces_ = 0;
   long long hessians_ = 0;
   std::size_t count_ = 0;

@@ -1,9 +1,9 @@
 // The midpoint discrete gradient in phase space:   [Gonzalez1996]
 //     DH = g + c u,   g = grad H((z0 + z1)/2),   u = z1 - z0,   c = [H(z1) - H(z0) - g.u]/|u|^2,   c = 0 at u = 0.
-// Order 2, symmetric, conserves H whatever it is; not symplectic. c u is of the size |u|^2, and H(z1) - H(z0) - g.u of
-// the size |u|^3: formed from two energies it would round by epsilon |H|, and c u by epsilon |H|/|u|, which near an
-// equilibrium is more than the motion. The change of H comes from its recording (detail/numerics/slope.hpp), so that c
-// u rounds by epsilon |g| for any u.
+// Order 2, symmetric, conserves any H; not symplectic. c u has the size |u|^2, and H(z1) - H(z0) - g.u has the size
+// |u|^3. As a difference of two energies it would have a rounding error of epsilon |H|, and c u of epsilon |H|/|u|,
+// which near an equilibrium is more than the motion. The change of H is computed from its recording
+// (detail/numerics/slope.hpp), so that the rounding error of c u is epsilon |g| for any u.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/discrete_gradient.hpp"
@@ -93,7 +93,7 @@ class MidpointDiscreteGradient {
     for (std::size_t i = 0; i < a.size(); ++i) sum = sum + a[i] * b[i];
     return sum;
   }
-  /// c. @param g grad H in the middle
+  /// The factor c. @param g grad H at the midpoint
   template <class S>
   S correction(const P& problem, const Vector<S, dynamic>& z0, const Vector<S, dynamic>& u,
                const Vector<S, dynamic>& g) const {

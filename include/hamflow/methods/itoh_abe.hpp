@@ -1,9 +1,9 @@
 // The discrete gradient of coordinate increments: coordinates change one after the other, q1 .. qn, then p1 .. pn, and
 //     DH_i = [H(z1_1 .. z1_i, z0_(i+1) ..) - H(z1_1 .. z1_(i-1), z0_i ..)]/(z1_i - z0_i).   [ItohAbe1988]
-// Order 1, conserves H whatever it is, no derivative of H stands in the map; not symmetric. The quotient comes from a
-// recording of H (detail/numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a
-// coordinate does not move. Newton takes the exact tangent: dDH_i/dz_j, j < i, is the same quotient of dH/dz_j, and
-// dDH_i/dz1_i is found by dual numbers through the quotient.
+// Order 1, conserves any H, and the map contains no derivative of H; not symmetric. The quotient is computed from a
+// recording of H (detail/numerics/slope.hpp): its rounding error is that of dH/dz_i for any increment, and it equals
+// dH/dz_i if a coordinate does not move. Newton's method uses the exact Jacobian: dDH_i/dz_j, j < i, is the same
+// quotient of dH/dz_j, and dDH_i/dz1_i follows by dual numbers through the quotient.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/discrete_gradient.hpp"
@@ -14,14 +14,15 @@
 namespace hamflow {
 
 inline MethodInfo coordinate_increment_claims() {
-  return {.name = "itoh-abe",
-          .summary =
-              "coordinate increments of Itoh and Abe: conserves any H, made of its values, solved with its derivatives",
-          .reference = "ItohAbe1988; HLW2006, Sect. V.5",
-          .order = 1,
-          .explicit_step = false,
-          .weakly_reversible = true,
-          .energy_conserving = Conservation::yes};
+  return {
+      .name = "itoh-abe",
+      .summary =
+          "coordinate increments of Itoh and Abe: conserves any H, uses only values of H (and derivatives to solve)",
+      .reference = "ItohAbe1988; HLW2006, Sect. V.5",
+      .order = 1,
+      .explicit_step = false,
+      .weakly_reversible = true,
+      .energy_conserving = Conservation::yes};
 }
 
 template <class P, class R>
@@ -44,7 +45,7 @@ class CoordinateIncrements {
     return dh;
   }
 
-  /// All quotients are counted as one gradient, with their derivatives as one Hessian too.
+  /// All quotients count as one gradient, and their derivatives as one Hessian.
   void linearise(const P& problem, const Rows& z0, const Rows& u, bool wanted, LinearisedGradient<R>& out,
                  Effort& effort) const {
     const std::size_t m = u.size();
@@ -97,7 +98,7 @@ class CoordinateIncrements {
     for (std::size_t k = 0; k < z.size(); ++k) quotients[k] = (after[k] - before[k]) / u;
     return quotients;
   }
-  /// The derivative of [H(z + u e_i) - H(z)]/u = `value` by u.
+  /// The derivative of `value` = [H(z + u e_i) - H(z)]/u with respect to u.
   R by_increment(const P& problem, const Rows& z, const R& u, std::size_t i, const R& value) const {
     using D = Dual<R, 1>;
     Vector<D, dynamic> at(z.size());
@@ -123,7 +124,7 @@ struct ItohAbe {
   MethodInfo info() const { return described(coordinate_increment_claims(), options); }
   template <class P, class A>
   using Stepper = ImplicitMethod<P, A, DiscreteGradientStep<P, typename A::Real, CoordinateIncrements>>;
-  /// H is evaluated along one coordinate after another: the work of a step goes as the cube of their number.
+  /// H is evaluated for one coordinate after the other, so that the work of a step grows as the cube of their number.
   static constexpr std::size_t most_coordinates = 250;
   /// @throws Error for more coordinates than most_coordinates
   template <class P, class A>
@@ -131,7 +132,8 @@ struct ItohAbe {
     if (degrees_of_freedom(problem) > most_coordinates) {
       throw Error("found " + std::to_string(degrees_of_freedom(problem)) + " coordinates; allowed at most " +
                   std::to_string(most_coordinates) +
-                  ": itoh-abe evaluates H once a coordinate, a step of more takes minutes; use discrete-gradient");
+                  ", because itoh-abe evaluates H for each coordinate and a step with more takes minutes; use "
+                  "discrete-gradient");
     }
     return Stepper<P, A>(problem, for_unknowns(2 * degrees_of_freedom(problem), options));
   }

@@ -1,8 +1,9 @@
 // The Lobatto pair IIIA-IIIB for any H(q, p): order 2 s - 2, symplectic, symmetric.   [HLW2006, Sect. II.2.2, IV.2]
 //     K_i = h b_i H_p(Q_i, P_i),   L_i = -h b_i H_q(Q_i, P_i),   z1 = z0 + sum_i (K_i, L_i),
 //     Q_i = q0 + sum_j (1/2 + nu_ij) K_j,   P_i = p0 + sum_j (1/2 - nu_ji) L_j.
-// One matrix nu for both (detail/numerics/lobatto.hpp): symplectic however it is rounded. Q_1 = q0, Q_s = q1; two
-// stages are Verlet, p first, for H = T(p) + V(q). Newton runs in all K_i and L_i with the exact tangent.
+// One matrix nu serves both (detail/numerics/lobatto.hpp), so that the map is symplectic whatever the rounding of nu.
+// Q_1 = q0, Q_s = q1; with two stages the method is Verlet (kick first) for H = T(p) + V(q). Newton's method solves for
+// all K_i and L_i with the exact Jacobian.
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"
@@ -90,7 +91,7 @@ class LobattoStages : public TargetEquations<R> {
       const Increment<Real, n> reach = terms_of_stage(x, i);
       gradient(problem_, y.q, y.p, dq, dp);
       if (at.linearised) hessian(problem_, y.q, y.p, qq, qp, pp);
-      const Real part = detail::golden<Real>() * pair_.b[i];
+      const Real part = detail::golden_ratio<Real>() * pair_.b[i];
       const Real weight = h_ * pair_.b[i];
       for (std::size_t a = 0; a < size; ++a) {
         const std::size_t k = 2 * size * i + a;
@@ -156,7 +157,7 @@ class LobattoStages : public TargetEquations<R> {
  private:
   using Base::h_;
 
-  /// Q_i and P_i, from the middle of the step.
+  /// Q_i and P_i, summed from the middle of the step.
   template <class S>
   Increment<S, n> stage(const Vector<S, n>& q0, const Vector<S, n>& p0, const Vector<S, dynamic>& x,
                         std::size_t i) const {
@@ -181,7 +182,7 @@ class LobattoStages : public TargetEquations<R> {
     }
     return y;
   }
-  /// The sizes of what Q_i and P_i are summed from.
+  /// The sizes of the terms of Q_i and P_i.
   Increment<Real, n> terms_of_stage(const Variables& x, std::size_t i) const {
     const std::size_t size = q0_.size();
     const std::size_t s = pair_.b.size();

@@ -2,7 +2,8 @@
 // tangent bundle of the manifold; and rattle4, its triple jump, of order 4.   [HLW2006, Sect. VII.1.4; Yoshida1990]
 //     simulate(problem, Rattle{}, q, p, h);            problem: Constrained, T quadratic with constant M
 //     simulate(problem, Rattle{{.order = 4}}, q, p, h);
-// Newton ends at the rounding of g, so that |g| and |g' M^-1 p| stay there however long the run is.
+// Newton's method iterates to the rounding of g, so that |g| and |g' M^-1 p| stay at rounding level in runs of any
+// length.
 #pragma once
 
 #include "hamflow/detail/core/capability.hpp"
@@ -32,7 +33,7 @@ inline MethodInfo describe(const RattleOptions& options) {
           .diagnostics = options.newton.diagnostics};
 }
 
-/// One step, of one part or, for order 4, of three.
+/// One step: one part or, for order 4, three parts.
 template <class P, Arithmetic A>
 class RattleStep {
  public:
@@ -40,7 +41,7 @@ class RattleStep {
   using Real = typename A::Real;
   using Base = Real;
   using Part = ImplicitMethod<P, A, RattleEquations<P, Real>>;
-  using Unknowns = typename Part::Unknowns;  // those of the parts, one after the other
+  using Unknowns = typename Part::Unknowns;  // of all parts, one after the other
   using State = PhasePoint<A, n>;
 
   RattleStep(const P& problem, const RattleOptions& options) : options_(options) {
@@ -57,7 +58,7 @@ class RattleStep {
   void invalidate() {
     for (Part& part : parts_) part.invalidate();
   }
-  /// Corrections are counted for whole steps.
+  /// Counts corrections of whole steps.
   Effort effort() const {
     Effort all = whole_;
     for (const Part& part : parts_) {
@@ -74,7 +75,7 @@ class RattleStep {
     ar(whole_);
     for (Part& part : parts_) ar(part);
   }
-  /// Of the last part.
+  /// The diagnostics of the last part.
   StepDiagnostics diagnostics(const P& problem, const State& z) const { return parts_.back().diagnostics(problem, z); }
   std::string failure(const P& problem, const Base& h, const State& z) const {
     RattleStep again = *this;
@@ -120,7 +121,7 @@ class RattleStep {
   Outcome counted(const P& problem, const Base& h, State& z, Unknowns* unknowns) {
     const State start = z;
     const long long before = effort().linear_solves;
-    std::vector<Unknowns> all(unknowns == nullptr ? 0 : parts_.size());  // a step of a run allocates nothing
+    std::vector<Unknowns> all(unknowns == nullptr ? 0 : parts_.size());  // a step of a run does not allocate
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const Base length = lengths_[k] * h;
       const Outcome outcome =
@@ -147,11 +148,11 @@ class RattleStep {
     return own;
   }
 
-  /// Every block of steps works on a copy of the method.
+  /// Every block of steps works on a copy of the method, so copies must be cheap.
   template <class T>
   using Parts = std::vector<T, PoolAllocator<T>>;
   RattleOptions options_;
-  Parts<Real> lengths_;  // of the parts, in units of the step
+  Parts<Real> lengths_;  // lengths of the parts, in units of the step
   Parts<Part> parts_;
   Effort whole_{};
 };
@@ -160,8 +161,8 @@ class RattleStep {
 struct Rattle {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
-  static constexpr Capability faces[] = {Capability::constrained | Capability::separable |
-                                         Capability::quadratic_kinetic};
+  static constexpr Capability capability_sets[] = {Capability::constrained | Capability::separable |
+                                                   Capability::quadratic_kinetic};
   template <class P>
   static constexpr bool accepts = Constrained<P>&& QuadraticKinetic<P>;
   RattleOptions options{};

@@ -1,18 +1,16 @@
-// **MethodRecipe**: what a user names, an object from which a stepper for a problem and an arithmetic is made.
+// **MethodRecipe**: the object by which a user chooses a method. It makes a stepper for a problem and an arithmetic.
 //     struct Verlet {
 //       static constexpr bool implicit = false;    // whether a step solves equations
 //       static constexpr bool bijective = true;    // whether every action of a step is one-to-one on a lattice
 //       template <class P>
-//       static constexpr bool accepts = Separable<P>;            // whether the problem has what the method needs
-//       template <class P, class A>
-//       using Stepper = VerletStep<P, A>;                        // info, step, effort, invalidate, archive
-//       template <class P, class A>
-//       Stepper<P, A> bind(const P& problem) const;
+//       static constexpr bool accepts = Separable<P>;            // whether the problem has the capabilities that the
+//       method needs template <class P, class A> using Stepper = VerletStep<P, A>;                        // info,
+//       step, effort, invalidate, archive template <class P, class A> Stepper<P, A> bind(const P& problem) const;
 //     };
-// It may declare `compensated` (increments are always added with compensation; by default those of implicit steps are),
-// `typed` (compiled with every problem of the catalogue in double, for what is bound by its step; by default it runs
-// behind virtual calls there), `recorded` (a step in double is a straight line, which is recorded and compiled), and
-// `faces`, the sets of capabilities for which it is compiled there, the preferred one first
+// It may declare `compensated` (always adds increments with compensation; the default for implicit methods), `typed`
+// (compiled in double for every problem of the catalogue, for methods whose own work dominates a step; by default it
+// runs behind virtual calls), `recorded` (a step in double is a straight-line program, which is recorded and compiled),
+// and `capability_sets`, the sets of capabilities for which it is compiled, in order of preference
 // (src/steps/visit_erased.hpp).
 #pragma once
 
@@ -23,8 +21,8 @@
 namespace hamflow {
 
 namespace detail {
-/// Stands for a problem where a concept asks whether a template has a member at all.
-struct AnyProblemAtAll {
+/// A placeholder for a problem, with which a concept checks that a template has a member.
+struct UnspecifiedProblem {
   using Real = double;
   static constexpr std::size_t dimension = 1;
 };
@@ -34,7 +32,7 @@ template <class M>
 concept MethodRecipe = std::copy_constructible<M> && requires {
   { M::implicit } -> std::convertible_to<bool>;
   { M::bijective } -> std::convertible_to<bool>;
-  { M::template accepts<detail::AnyProblemAtAll> } -> std::convertible_to<bool>;
+  { M::template accepts<detail::UnspecifiedProblem> } -> std::convertible_to<bool>;
 };
 
 /// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
@@ -60,7 +58,7 @@ constexpr bool has_typed_kernel() {
   }
 }
 
-/// Whether what a stepper keeps for the next step depends on the positions alone: a momentum may then be turned round.
+/// Whether the memory of a stepper depends only on positions, so that the sign of a momentum may be changed.
 template <class Stepper>
 constexpr bool remembers_positions_alone() {
   return requires { Stepper::remembers_positions_alone; };

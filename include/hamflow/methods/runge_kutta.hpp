@@ -1,5 +1,5 @@
-// Explicit Runge-Kutta methods for z' = J grad H(z), any differentiable H.   [HLW2006, Sect. II.1.1]
-// Non-geometric: they drift. Here as references to compare against.
+// Explicit Runge-Kutta methods for z' = J grad H(z), any differentiable H.   [HLW2006, Sect. II.1.1] They are not
+// geometric integrators and their energy drifts. They serve as references for comparisons.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Ratio {
   }
 };
 
-/// a is strictly lower triangular.
+/// A tableau whose matrix a is strictly lower triangular.
 template <std::size_t S>
 struct ButcherTableau {
   static constexpr std::size_t stages = S;
@@ -33,7 +33,7 @@ struct ButcherTableau {
   std::array<std::array<Ratio, S>, S> a{};
   std::array<Ratio, S> b{};
 
-  /// Whether no stage needs a later one.
+  /// Whether no stage depends on a later one.
   constexpr bool is_explicit() const {
     for (std::size_t i = 0; i < S; ++i) {
       for (std::size_t j = i; j < S; ++j) {
@@ -73,14 +73,13 @@ template <class P, Arithmetic A, const auto& Tableau>
 class RungeKutta {
  public:
   static_assert(Differentiable<P>,
-                "hamflow: a Runge-Kutta method needs a Differentiable problem; one of dynamic size gives "
-                "velocity and force, or gradient, by hand");
+                "hamflow: a Runge-Kutta method needs a Differentiable problem; one of dynamic size "
+                "must define velocity and force, or gradient");
   static_assert(Tableau.is_explicit(),
-                "hamflow: the matrix of an explicit Runge-Kutta tableau is strictly lower triangular");
-  static_assert(
-      Tableau.is_consistent(),
-      "hamflow: the weights of a Runge-Kutta tableau add up to 1, those of order 2 and more times their nodes "
-      "to 1/2");
+                "hamflow: the matrix of an explicit Runge-Kutta tableau must be strictly lower triangular");
+  static_assert(Tableau.is_consistent(),
+                "hamflow: the weights of a Runge-Kutta tableau must sum to 1 and, for order 2 and more, weights times "
+                "nodes to 1/2");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = std::remove_cvref_t<decltype(Tableau)>::stages;
   using Real = typename A::Real;
@@ -88,7 +87,7 @@ class RungeKutta {
 
   MethodInfo info() const { return describe(Tableau); }
 
-  /// Inlined by force into the loop over steps: else the state would go through memory between two steps.
+  /// Always inlined into the loop over steps; otherwise the state would go through memory between two steps.
   [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
     const Vector<Real, n> q0 = z.positions();
     const Vector<Real, n> p0 = z.momenta();
@@ -128,7 +127,7 @@ class RungeKutta {
       z.move(sum_q);
       z.push(sum_p);
     }
-    // The last stage is added by itself: the next step waits for it, and for nothing else.
+    // The last stage is added separately, because the next step waits only for it.
     const Base weight = h * Tableau.b[stages - 1].template as<Base>();
     z.move(weight, dq[stages - 1]);
     z.push(weight, dp[stages - 1]);

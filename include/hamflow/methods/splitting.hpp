@@ -1,13 +1,12 @@
 // The kernel of every explicit splitting method for H = T(p) + V(q): alternating kicks and drifts from a table.
 //     kick c:  p <- p - c h V'(q)          drift d:  q <- q + d h T'(p)
 // One kernel serves all tables, both orders (kick first, drift first) and every arithmetic. Neighbouring kicks of a
-// composition are one kick, and a step that begins and ends with a kick keeps the last one for the next step: no force
-// is computed twice. Kicks of two *steps* are not merged: advance(1000) has to give the bits of 1000 times advance(1).
-// The factors c h and d h go into the force and the velocity of a problem that takes them (scaled_force,
-// scaled_velocity): multiplied by them afterwards, every force would end one operation later, and the next one waits
-// for it.
-// On an integer lattice, forces between pairs are rounded and summed pair by pair (pair_sums.hpp); the kick is then
-// kept as integers, and where the last kick of a table is not as strong as the first it is computed anew.
+// composition are merged, and a step that begins and ends with a kick keeps the last force for the next step, so that
+// no force is computed twice. Kicks of two *steps* are not merged, because advance(1000) must give the bits of 1000
+// calls of advance(1). A problem with scaled_force and scaled_velocity gets the factors c h and d h as arguments; a
+// multiplication afterwards would lengthen the chain of dependent operations between two forces. On an integer lattice,
+// forces between pairs are rounded and summed pair by pair (pair_sums.hpp). The kick is then kept as integers; if the
+// last kick of a table differs from the first, it is computed again.
 #pragma once
 
 #include <array>
@@ -26,14 +25,14 @@ namespace hamflow {
 
 /// The order of actions in one step.
 enum class Shape {
-  kick_drift_kick,   // K D ... D K, both alike: the last kick serves the next step
+  kick_drift_kick,   // K D ... D K with equal ends: the next step reuses the last force
   drift_kick_drift,  // D K ... K D
   kick_drift,        // K D ... K D
   drift_kick,        // D K ... D K
   any                // one of these, known at run time
 };
 
-/// @param ends_alike the first and the last action are equally strong
+/// @param ends_alike the first and the last action have the same coefficient
 constexpr Shape shape_of(bool kick_first, bool kick_last, bool ends_alike) {
   if (!kick_first) return kick_last ? Shape::drift_kick : Shape::drift_kick_drift;
   if (!kick_last) return Shape::kick_drift;
@@ -118,7 +117,7 @@ inline MethodInfo describe(const SplittingTable& table) {
 
 inline constexpr int any_length = 0;
 
-/// The type of a step's length: that of a number, but where steps of any length are recorded (A::Length).
+/// The type of the step length: a plain number, or A::Length if steps of any length are recorded.
 template <class A>
 struct StepLengthOf {
   using type = base_scalar<typename A::Real>;
@@ -129,9 +128,9 @@ struct StepLengthOf<A> {
   using type = typename A::Length;
 };
 
-/// Where an addition has two halves (arithmetic/compensated.hpp), the second half waits until the next force is known:
-/// the same operations, but behind those of the force in the order of the program, in which a processor that has the
-/// choice takes them. Else everything that follows one force would compete with what the next one waits for.
+/// If an addition has two halves (arithmetic/compensated.hpp), the second half is deferred until the next force is
+/// computed. The operations are the same, but come after those of the force in program order, so that they do not
+/// compete with operations on which the next force depends.
 template <Arithmetic A, std::size_t n>
 struct Unsettled {
   Vector<typename A::Axis::Pending, n> q{};
@@ -151,14 +150,14 @@ struct Unsettled {
 struct NothingUnsettled {};
 
 /// One step of a splitting method.
-/// @tparam Links drifts in a step when known at compile time (the loop is then unrolled), else any_length
+/// @tparam Links number of drifts in a step if known at compile time (the loop is then unrolled), else any_length
 template <class P, Arithmetic A, Shape shape, int Links = any_length>
 class Splitting {
  public:
   static_assert(
       Separable<P>,
       "hamflow: a splitting method needs a Separable problem, H = T(p) + V(q): give kinetic(p) and potential(q), "
-      "and for dynamic size velocity(p, v) and force(q, f) by hand. Methods that accept any differentiable H: euler, "
+      "and for dynamic size velocity(p, v) and force(q, f). Methods that accept any differentiable H: euler, "
       "rk4");
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
@@ -175,12 +174,12 @@ class Splitting {
     std::size_t i = 0;
     if (leading()) leading_kick_ = c[i++];
     for (; i < c.size(); i += 2) {
-      if (count_ == capacity) throw Error("hamflow: a splitting table is longer than the kernel's room for it");
+      if (count_ == capacity) throw Error("hamflow: a splitting table is longer than the capacity of the kernel");
       links_[count_++] = {c[i], i + 1 < c.size() ? c[i + 1] : Base(0)};
     }
   }
 
-  /// A problem behind virtual calls knows at run time which functions of a factor it has.
+  /// Asks a problem behind virtual calls which scaled functions it has.
   void ask(const P& problem) {
     if constexpr (knows_at_run_time) {
       force_takes_factor_ = problem.has_scaled_force();
@@ -190,8 +189,8 @@ class Splitting {
 
   MethodInfo info() const { return info_(table_); }
 
-  /// z <- Psi_h(z). Always done: trouble shows in the state. Inlined by force into the loop over steps, so that state
-  /// and kick stay in registers from step to step.
+  /// z <- Psi_h(z). It always returns `done`; a failure shows in the state. Always inlined into the loop over steps, so
+  /// that state and kick stay in registers.
   [[gnu::always_inline]] Outcome step(const P& problem, const Length& h, PhasePoint<A, n>& z) {
     auto&& f = working_copy(kick_);
     [[maybe_unused]] std::conditional_t<defers, Unsettled<A, n>, NothingUnsettled> late;
@@ -227,11 +226,10 @@ class Splitting {
     return Outcome::done;
   }
 
-  /// Steps of any length follow each other: of a problem that knows it at run time the force is kept without its
-  /// factor, which no other step has.
+  /// To be called if steps vary in length: the force is then kept without the factor, which differs from step to step.
   void take_any_steps() { force_takes_factor_ = velocity_takes_factor_ = false; }
 
-  /// Has the kick with which the next step begins, where it is kept.
+  /// Computes the kick with which the next step begins, if it is kept.
   void prepare(const P& problem, const Length& h, PhasePoint<A, n>& z) {
     const Length factor = h * leading_kick_;
     if (!(leading() && trailing()) || (kick_is_current_ && kept_factor_ == within(factor))) return;
@@ -243,18 +241,18 @@ class Splitting {
     kick_is_current_ = true;
   }
   static constexpr bool remembers_positions_alone = true;
-  /// The i-th position was mirrored, and so is what is kept of it.
+  /// Mirrors the kept kick after the i-th position was mirrored.
   void mirror_kept(std::size_t i) {
     if (i < kick_.size()) kick_[i] = -kick_[i];
   }
-  /// To be called when the state was changed from outside. What was kept goes, so that whoever saves finds the same
-  /// whichever way led there.
+  /// To be called after the state was changed from outside. It clears the kept force, so that saved bytes do not depend
+  /// on the history.
   void invalidate() {
     kick_is_current_ = false;
     for (Increment& x : kick_) x = Increment(0);
     kept_factor_ = Base(0);
   }
-  /// How many threads compute the forces; the bits are the same for any number.
+  /// Sets the number of threads for the forces; the bits do not depend on it.
   void use_threads(std::size_t count) requires sums_integers { sums_.use_threads(count); }
   Effort effort() const { return {.force = forces_}; }
   template <class Archive>
@@ -264,7 +262,7 @@ class Splitting {
 
  private:
   using Increment = typename detail::PairSumsOf<P, A, sums_integers>::Increment;
-  static constexpr bool of_any_length = !std::is_same_v<Length, Base>;  // no kick is kept by such a factor
+  static constexpr bool of_any_length = !std::is_same_v<Length, Base>;  // the kept kick has no such factor
   static constexpr bool knows_at_run_time = requires(const P& problem) {
     problem.has_scaled_force();
     problem.has_scaled_velocity();
@@ -284,7 +282,7 @@ class Splitting {
       return shape == Shape::kick_drift_kick || shape == Shape::drift_kick;
     }
   }
-  /// Whether the factor of a kick goes into f: not where f serves two kicks of different strength.
+  /// Whether f includes the factor of the kick; not if f serves two kicks of different strength.
   constexpr bool factor_within() const {
     if constexpr (sums_integers) {
       return true;
@@ -330,8 +328,8 @@ class Splitting {
     }
     ++forces_;
   }
-  /// Whether second halves of additions wait for the force. Every step then begins with a kick: there is always
-  /// something to settle.
+  /// Whether second halves of additions are deferred. Every step then begins with a kick, so that there is always one
+  /// to complete.
   static constexpr bool defers = std::is_floating_point_v<Real> && n != dynamic &&
                                  (shape == Shape::kick_drift_kick || shape == Shape::kick_drift) && requires {
     typename A::Axis::Pending;
@@ -342,13 +340,13 @@ class Splitting {
       z.push(f);
     } else if constexpr (defers) {
       late.add([&](std::size_t i) { return factor_within() ? f[i] : Real(factor * f[i]); }, z.p, late.p);
-    } else if (factor_within()) [[likely]] {  // else one multiplication, by factor or 1, is made of it
+    } else if (factor_within()) [[likely]] {  // otherwise the compiler makes it one multiplication, by factor or 1
       z.push(f);
     } else {
       z.push(factor, f);
     }
   }
-  /// Of a step: the first one of the next step follows at once.
+  /// The last kick of a step; the first kick of the next step follows at once.
   [[gnu::always_inline]] void last_kick(const Length& factor, const Vector<Increment, n>& f,
                                         PhasePoint<A, n>& z) const {
     if constexpr (defers) {
@@ -375,7 +373,7 @@ class Splitting {
       z.move(factor, v);
     }
   }
-  /// In place vectors are copied, to live in registers; others are used where they are.
+  /// Vectors stored in place are copied, to stay in registers; others are used by reference.
   [[gnu::always_inline]] static decltype(auto) working_copy(Vector<Increment, n>& kept) {
     if constexpr (n == dynamic) {
       return (kept);
@@ -385,14 +383,14 @@ class Splitting {
   }
 
   [[no_unique_address]] typename detail::PairSumsOf<P, A, sums_integers>::type sums_;
-  Vector<Increment, n> kick_{};  // of the last kick: kept_factor_ F(q)
+  Vector<Increment, n> kick_{};  // force of the last kick, kept_factor_ F(q)
   Base kept_factor_{};
   bool kick_is_current_ = false;
-  bool force_takes_factor_ = true;  // of a problem that knows it at run time
+  bool force_takes_factor_ = true;  // for a problem behind virtual calls
   bool velocity_takes_factor_ = true;
   long long forces_ = 0;
   Base leading_kick_{};
-  bool leading_ = false;  // of Shape::any: a kick comes first, last, and in both places is equally strong
+  bool leading_ = false;  // for Shape::any: the first and the last action are kicks with the same coefficient
   bool trailing_ = false;
   bool ends_alike_ = true;
   std::size_t count_ = 0;
@@ -413,7 +411,7 @@ inline MethodInfo describe_splitting(const void* table) { return describe(*stati
 
 // Recipes, see methods/recipe.hpp. Every kick and drift is one-to-one on a lattice.
 
-/// A table of either kind that is chosen at run time.
+/// A table of either kind, chosen at run time.
 class AnySplitting {
  public:
   AnySplitting(const CompositionTable& table, StartsWith starts_with)
@@ -431,9 +429,9 @@ class AnySplitting {
   const void* table() const {
     return splitting_ != nullptr ? static_cast<const void*>(splitting_) : static_cast<const void*>(composition_);
   }
-  /// Whether its order holds for quadratic T only.
+  /// Whether its order holds only for quadratic T.
   bool nystroem() const { return splitting_ != nullptr && splitting_->nystroem; }
-  /// Whether kicks and drifts add up to 1 each.
+  /// Whether the kicks and the drifts each sum to 1.
   bool is_consistent() const {
     std::array<double, 2> sums{};
     const std::vector<double> c = sequence<double>().coefficients;
@@ -447,7 +445,7 @@ class AnySplitting {
   const SplittingTable* splitting_ = nullptr;
 };
 
-/// Any table of one shape, its length known at run time.
+/// Any table of one shape, with a length known at run time.
 template <Shape shape>
 struct TableRecipe {
   template <class P>
@@ -473,7 +471,7 @@ struct TableRecipe {
   }
 };
 
-/// A composition chosen by type: Composition<compositions::stv4> has its length compiled in.
+/// A composition chosen by type: the length of Composition<compositions::stv4> is known at compile time.
 template <const CompositionTable& Table, StartsWith starts_with = StartsWith::kick>
 struct Composition {
   template <class P>
@@ -512,8 +510,8 @@ struct SplittingBy {
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
     static_assert(accepts<P>,
-                  "hamflow: this table has its order for a QuadraticKinetic problem only, T = p^T M^-1 p/2");
-    static_assert(Table.is_consistent(), "hamflow: the kicks and the drifts of a splitting table add up to 1 each");
+                  "hamflow: the order of this table holds only for a QuadraticKinetic problem, T = p^T M^-1 p/2");
+    static_assert(Table.is_consistent(), "hamflow: the kicks and the drifts of a splitting table must each sum to 1");
     Stepper<P, A> stepper{sequence_of<typename Stepper<P, A>::Base>(Table), detail::describe_splitting, &Table};
     stepper.ask(problem);
     return stepper;

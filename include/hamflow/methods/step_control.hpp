@@ -1,4 +1,4 @@
-// Which steps a method takes, as options and claims say it. The reversible steps of varying length are those of
+// The options of step control and the claims of methods with it. Reversible steps of varying length are implemented in
 // detail/methods/step_density.hpp.
 #pragma once
 
@@ -8,8 +8,7 @@
 
 namespace hamflow {
 
-// The option, in every family, and what it may be besides steps of a method's own; what decides lengths, the first
-// where nothing is named.
+// The names of the options and of their values, except for methods with adaptive sub-steps.
 inline constexpr const char* step_control_option = "step_control";
 inline constexpr const char* fixed_steps = "fixed";
 inline constexpr const char* reversible_steps = "reversible";
@@ -17,9 +16,9 @@ inline constexpr const char* monitor_option = "monitor";
 inline constexpr const char* default_monitor = "arclength";
 inline constexpr const char* distance_monitor_name = "distance";
 
-/// What a method claims whose steps vary: the map of (z, density) is symmetric and reversible where the method is, and
-/// energies that each step conserves are conserved. It is not symplectic.
-/// @return with the name "stv4(step_control=reversible,monitor=distance)"
+/// The claims of a method with steps of varying length. The map of (z, density) is symmetric and reversible if the
+/// method is, and conserves the energy if each step does. It is not symplectic.
+/// @return claims with a name such as "stv4(step_control=reversible,monitor=distance)"
 inline MethodInfo with_varying_steps(MethodInfo info, const std::string& monitor) {
   if (info.name.back() == ')') {
     info.name.back() = ',';

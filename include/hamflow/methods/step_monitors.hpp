@@ -1,4 +1,4 @@
-// The lengths that steps should have, up to a factor (detail/methods/step_density.hpp).
+// Monitors: functions that give the step length up to a factor (detail/methods/step_density.hpp).
 //     simulation.vary_steps(arclength_monitor(problem));
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hamflow {
 
 namespace detail {
-/// Of more degrees of freedom the second derivatives are taken along the motion alone, where dual numbers can do that.
+/// With more degrees of freedom, second derivatives are computed only along the motion, if dual numbers can do that.
 inline constexpr std::size_t most_with_hessian = 12;
 
 /// q'' and p'', the gradient of H differentiated along (q', p').
@@ -69,8 +69,8 @@ void acceleration(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p
 
 /// **arclength**: every step covers the same length of the trajectory in phase space, sigma = 1/S with
 ///     S^2 = |q'|^2 + |p'|^2   [HairerSoederlind2005]
-/// in the units of the problem: which of q and p decides follows from them. For any H with second derivatives. At rest,
-/// where S = 0, every length is right, and G is 0.
+/// in the units of the problem, which determine the weights of q and p. For any H with second derivatives. At rest, S =
+/// 0, any length is allowed, and G is 0.
 template <class P>
 StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem) {
   using R = RealOf<P>;
@@ -92,9 +92,9 @@ StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem) {
           }};
 }
 
-/// **distance**: sigma = d^(3/2), d the distance from the centre or of the nearest two bodies (distance_rate in
-/// detail/core/optional_functions.hpp). By Kepler's third law the time that a motion at distance d takes is
-/// proportional to d^(3/2): an encounter of two bodies has as many steps, however close it is.
+/// **distance**: sigma = d^(3/2), d the distance to the centre or between the two closest bodies (distance_rate in
+/// detail/core/optional_functions.hpp). By Kepler's third law the time scale of a motion at distance d is proportional
+/// to d^(3/2), so that a close encounter of two bodies has the same number of steps at any distance.
 template <class P>
 requires HasDistanceRate<P> StepMonitor<RealOf<P>, P::dimension> distance_monitor(const P& problem) {
   using R = RealOf<P>;

@@ -1,6 +1,7 @@
-// The kinds of coefficient table for explicit splitting methods. A table is data with its source; the one kernel in
-// splitting.hpp runs them all, those with force gradients that in force_gradient.hpp. Coefficients are decimal strings
-// (or fractions), read in the working arithmetic, because a double literal would silently cap an extended one.
+// The types of coefficient tables for explicit splitting methods. A table is data with its source; the kernel in
+// splitting.hpp runs all of them, and the one in force_gradient.hpp those with force gradients. Coefficients are
+// decimal strings or fractions, read in the working arithmetic, because a double literal would limit the digits of
+// other arithmetics.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 
 namespace hamflow {
 
-/// The value of a plain decimal ("-0.39") or of a fraction of two ("1/6"), to some roundings of double; NaN of any
-/// other expression, which only evaluate_number reads.
+/// The value of a decimal ("-0.39") or of a fraction ("1/6"), to a few roundings of double; NaN for other expressions,
+/// which need evaluate_number.
 constexpr double plain_number(std::string_view text) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (const std::size_t slash = text.find('/'); slash != std::string_view::npos) {
@@ -20,7 +21,7 @@ constexpr double plain_number(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative) text.remove_prefix(1);
   double digits = 0;
-  double unit = 0;  // of the last digit behind the point; 0 before the point
+  double unit = 0;  // of the last digit after the point; 0 before the point
   bool any = false;
   for (const char c : text) {
     if (c == '.' && unit == 0) {
@@ -40,18 +41,18 @@ constexpr double plain_number(std::string_view text) {
   return !any ? unknown : negative ? -digits : digits;
 }
 
-/// Whether the kicks and the drifts of a step each add up to 1, which every consistent method needs; true where a
-/// coefficient is an expression that cannot be read here.
+/// Whether the kicks and the drifts of a step each sum to 1, as consistency requires; true if a coefficient is an
+/// expression that cannot be evaluated at compile time.
 constexpr bool adds_up_to_one(double kicks, double drifts) {
-  const auto is_one = [](double sum) { return !(sum < 1 - 1e-12 || sum > 1 + 1e-12); };  // true of NaN
+  const auto is_one = [](double sum) { return !(sum < 1 - 1e-12 || sum > 1 + 1e-12); };  // true for NaN
   return is_one(kicks) && is_one(drifts);
 }
 
-/// What `list methods` and `show` say of a table, where there is more to say than of all of its kind.
+/// Advice about a table for `list methods` and `show`, in addition to the advice for all tables of its kind.
 struct TableAdvice {
-  std::string_view purpose{};  // of one of the few methods with which the list begins: for what
-  std::string_view take{};     // when to take it
-  std::string_view avoid{};    // when not, and what is better then
+  std::string_view purpose{};  // what it is for, if it is one of the methods recommended first
+  std::string_view take{};     // when to use it
+  std::string_view avoid{};    // when not to use it, and what is better then
 };
 
 /// Psi_h = StV(gamma_s h) o ... o StV(gamma_1 h), gamma palindromic, StV the Stoermer-Verlet step.
@@ -62,7 +63,7 @@ struct CompositionTable {
   int order;
   std::string_view reference;
   std::array<std::string_view, most> half{};
-  std::array<std::string_view, most> closed_half{};  // expressions, where there are, for any number of digits
+  std::array<std::string_view, most> closed_half{};  // closed forms, if known, for any number of digits
   TableAdvice advice{};
 
   constexpr int half_count() const {
@@ -75,8 +76,8 @@ struct CompositionTable {
 
 enum class StartsWith { kick, drift };
 
-/// Alternating kicks (p <- p - c h V'(q)) and drifts (q <- q + d h T'(p)), in the order in which they act.
-/// Of a symmetric one `coefficients` lists the first half with the middle one; the rest is its mirror image.
+/// Alternating kicks (p <- p - c h V'(q)) and drifts (q <- q + d h T'(p)), in the order in which they act. For a
+/// symmetric splitting `coefficients` lists the first half with the middle; the rest is its mirror image.
 struct SplittingTable {
   static constexpr std::size_t most = 40;
   std::string_view name;
@@ -84,19 +85,19 @@ struct SplittingTable {
   std::string_view reference;
   StartsWith starts_with;
   bool symmetric = false;
-  bool nystroem = false;  // has its order for T = p^T M^-1 p/2 with constant M only
+  bool nystroem = false;  // the order holds only for T = p^T M^-1 p/2 with constant M
   std::array<std::string_view, most> coefficients{};
   TableAdvice advice{};
 
-  /// How many coefficients are listed.
+  /// The number of listed coefficients.
   constexpr int listed() const {
     int n = 0;
     while (n < static_cast<int>(most) && !coefficients[static_cast<std::size_t>(n)].empty()) ++n;
     return n;
   }
-  /// How many actions a step has.
+  /// The number of actions in a step.
   constexpr int count() const { return symmetric ? 2 * listed() - 1 : listed(); }
-  /// Of action i = 0 .. count() - 1.
+  /// The coefficient of action i = 0 .. count() - 1.
   constexpr std::string_view coefficient(int i) const {
     return coefficients[static_cast<std::size_t>(i < listed() ? i : count() - 1 - i)];
   }
@@ -114,7 +115,8 @@ struct ForceGradientAction {
   std::string_view gradient{};  // g; empty: 0
 };
 
-/// A symmetric splitting whose kicks may carry the gradient of |V'|^2. `half` lists its actions with the middle one.
+/// A symmetric splitting whose kicks may carry the gradient of |V'|^2. `half` lists the actions up to and including the
+/// middle one.
 struct ForceGradientTable {
   static constexpr std::size_t most = 8;
   std::string_view name;

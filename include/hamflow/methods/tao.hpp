@@ -1,14 +1,15 @@
-// Explicit symplectic steps for any differentiable H, in a phase space of twice the dimensions.   [Tao2016]
-// A second copy (x, y) of the state follows the first one, (q, p), bound to it by springs of frequency omega:
+// Explicit symplectic steps for any differentiable H, in a phase space of twice the dimensions.   [Tao2016] A second
+// copy (x, y) of the state follows the first one, (q, p), coupled to it by springs of frequency omega:
 //     H(q, y) + H(x, p) + omega (|q - x|^2 + |p - y|^2)/2
 // Each of the three parts has an exact flow:
 //     A:  p <- p - h H_q(q, y),  x <- x + h H_p(q, y)
 //     B:  q <- q + h H_p(x, p),  y <- y - h H_q(x, p)
-//     C:  (q - x, p - y) turns by the angle 2 omega h; q + x and p + y stay.
-// tao2 is A(h/2) B(h/2) C(h) B(h/2) A(h/2), tao4 its triple jump. Symplectic, symmetric and reversible as a map of (q,
-// x, p, y); of (q, p) alone it is neither, which is why the copy is state of the run. It begins as x = q, y = p. What
-// is kept is the energy of the bound copies; H(q, p) as long as they stay together, which takes an omega that is large
-// beside the frequencies of the motion. Errors grow with omega h^r, so that omega h has to be small.
+//     C:  (q - x, p - y) rotates by the angle 2 omega h; q + x and p + y do not change.
+// tao2 is A(h/2) B(h/2) C(h) B(h/2) A(h/2), tao4 its triple jump. It is symplectic, symmetric and reversible as a map
+// of (q, x, p, y), but not as a map of (q, p), which is why the copy is part of the state of a run. The copy starts as
+// x = q, y = p. The method nearly conserves the energy of the coupled copies, and H(q, p) as long as they stay
+// together, which requires an omega much larger than the frequencies of the motion. Errors grow with omega h^r, so
+// omega h must be small.
 #pragma once
 
 #include <string>
@@ -32,7 +33,7 @@ struct TaoOptions {
 inline MethodInfo describe_tao(int order, const TaoOptions& options) {
   const bool usual = options.omega == TaoOptions().omega;
   return {.name = "tao" + std::to_string(order) + (usual ? "" : "(omega=" + shortest(options.omega) + ")"),
-          .summary = order == 2 ? "explicit, two bound copies of the state in a doubled phase space"
+          .summary = order == 2 ? "explicit, two coupled copies of the state in a doubled phase space"
                                 : "explicit, triple jump of tao2 in a doubled phase space",
           .reference = "Tao2016",
           .order = order,
@@ -48,7 +49,7 @@ template <class P, Arithmetic A, int order>
 class TaoStep {
  public:
   static_assert(Differentiable<P>, "hamflow: tao2 and tao4 need a Differentiable problem");
-  static_assert(!A::exact_undo, "hamflow: the lattice needs an explicit splitting method: tao turns coordinates");
+  static_assert(!A::exact_undo, "hamflow: the lattice needs an explicit splitting method: tao rotates coordinates");
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
@@ -56,7 +57,7 @@ class TaoStep {
 
   explicit TaoStep(const TaoOptions& options) : options_(options), omega_(options.omega) {
     if constexpr (order == 4) {
-      jump_ = evaluate_number<Base>("1/(2 - 2^(1/3))");  // Suzuki's and Yoshida's, for a step of order 2
+      jump_ = evaluate_number<Base>("1/(2 - 2^(1/3))");  // the triple jump of Suzuki and Yoshida for a step of order 2
     }
   }
 
@@ -77,13 +78,13 @@ class TaoStep {
     return Outcome::done;
   }
 
-  /// The copy stays; the derivatives at (q, y) are computed anew.
+  /// Drops the derivatives at (q, y); the copy is kept.
   void invalidate() { kept_ = false; }
-  /// Of the copy, too: else it would run on while the run turns round.
+  /// Reverses the momenta of the copy, too, so that it reverses with the run.
   void negate_momenta() {
     if (begun_) copy_.negate_momenta();
   }
-  /// A bounce throws both copies back.
+  /// A bounce reflects both copies.
   void negate_momentum(std::size_t i) {
     if (begun_) copy_.p[i] = A::Axis::negated(copy_.p[i]);
     kept_ = false;
@@ -92,11 +93,11 @@ class TaoStep {
     if (begun_) copy_.arithmetic.momentum.add(copy_.p[i], change);
     kept_ = false;
   }
-  /// The clock of the run goes on in both copies (detail/core/step_clock.hpp).
+  /// Sets the time in both copies (detail/core/step_clock.hpp).
   void set_clock(const State& z) {
     for (std::size_t i = 1; begun_ && i <= clock_coordinates; ++i) copy_.q[z.q.size() - i] = z.q[z.q.size() - i];
   }
-  /// The second copy, x and y. It begins with the first step.
+  /// The second copy, x and y. It exists from the first step on.
   const State& copy() const { return copy_; }
   void begin_with(const State& copy) {
     copy_ = copy;
@@ -118,7 +119,7 @@ class TaoStep {
     flow_b(problem, half, z);
     flow_a(problem, half, z);
   }
-  /// Changes neither q nor y: the next one finds the derivatives that this one leaves.
+  /// Flow A. It changes neither q nor y, so that the next one reuses its derivatives.
   void flow_a(const P& problem, const Base& h, State& z) {
     if (!kept_) evaluate(problem, z.positions(), copy_.momenta());
     kept_ = true;
@@ -131,10 +132,10 @@ class TaoStep {
     z.move(h, by_p_);
     copy_.push(-h, by_q_);
   }
-  /// By increments, cos - 1 = -2 sin^2 of the half angle, so that each copy is rounded once. No spring binds the time,
-  /// which is the same in both.
+  /// Flow C, by increments with cos - 1 = -2 sin^2 of the half angle, so that each copy is rounded once. The time is
+  /// the same in both copies and has no spring.
   void turn(const P& problem, const Base& h, State& z) {
-    const Base angle = omega_ * h;  // half of what the difference turns by
+    const Base angle = omega_ * h;  // half of the angle of rotation
     const Base sine = sin(angle);
     const Base less = sine * sine;                // (1 - cos 2 angle)/2
     const Base across = sine * Base(cos(angle));  // sin(2 angle)/2
@@ -168,7 +169,7 @@ class TaoStep {
   Base omega_;
   Base jump_{};
   bool begun_ = false;
-  bool kept_ = false;  // by_q_, by_p_ are those at (q, y)
+  bool kept_ = false;  // by_q_, by_p_ are the derivatives at (q, y)
   State copy_{};
   Vector<Real, n> by_q_{};
   Vector<Real, n> by_p_{};

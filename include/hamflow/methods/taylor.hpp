@@ -1,23 +1,23 @@
 // The Taylor series method: z(t0 + tau) = sum_k z_k tau^k up to any order, the coefficients by automatic
-// differentiation of the problem's own formulas.   [JorbaZou2005]
-// Non-geometric: it drifts. Here as a reference to compare against.
+// differentiation of the problem's own formulas.   [JorbaZou2005] It is not a geometric integrator and its energy
+// drifts. It serves as a reference for comparisons.
 //
-// One step advances by h in sub-steps. The last two coefficients of the q- and of the p-block, in the max-norm, show
-// how far the series reaches (as [JorbaZou2005, (3-8)], with the size of a block taken within that reach, so that a
+// One step advances by h in sub-steps. The last two coefficients of the q- and p-block, in the max-norm, give the
+// radius of convergence (as in [JorbaZou2005, (3-8)], but with the size of a block taken within that radius, so that a
 // block that passes through 0 does not stop the motion):
-//     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the least rho_j, j = p - 1, p, of both blocks,
+//     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the smallest rho_j, j = p - 1, p, of both blocks,
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
-// For the cheapest order, p = ceil(1 - ln(tolerance)/2), that is rho/e^2 and their safety factor. What is left of h is
-// divided into equal parts that are no longer. No sub-step depends on the one before it: there is no memory.
+// For the cheapest order, p = ceil(1 - ln(tolerance)/2), this is rho/e^2 times their safety factor. The rest of h is
+// divided into equal parts that are not longer. No sub-step depends on the one before, so there is no memory.
 //
-// The last two coefficients of both blocks can vanish by a symmetry of the motion: the quartic oscillator x' = p,
-// p' = -2 x^3 from x = 0 has q-coefficients 1, 5, 9, ... and p-coefficients 0, 4, 8, ... only. Therefore rho_j of all
-// coefficients of the second half bound the sub-step too, with three times the factor (at most 0.9).
+// The last two coefficients of both blocks can vanish by a symmetry of the motion: the quartic oscillator x' = p, p' =
+// -2 x^3 from x = 0 has only q-coefficients 1, 5, 9, ... and p-coefficients 0, 4, 8, .... Therefore the rho_j of all
+// coefficients of the second half bound the sub-step, too, with three times the factor (at most 0.9).
 //
-// Sizes are kept as logarithms, because those of many digits leave the range of double: with 100 digits, powers of a
-// unit 1024 times shorter than the reach pass below 10^-308. A coefficient below the range of the arithmetic itself is
-// taken for the smallest number there, which can only shorten the sub-step. Before a sub-step is added, its last terms
-// are compared in the working arithmetic with the first ones: a series that does not converge there is a failure.
+// Sizes are kept as logarithms, because with many digits they leave the range of double: with 100 digits, powers of a
+// unit 1024 times shorter than the radius fall below 10^-308. A coefficient below the range of the arithmetic counts as
+// its smallest number, which can only shorten the sub-step. Before a sub-step is added, its last terms are compared
+// with the first ones in the working arithmetic; if the series does not converge, the step fails.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class TaylorMethod {
   static_assert(Traceable<P, Base>,
                 "hamflow: taylor needs a Differentiable problem whose functions are templates over the number type");
 
-  /// Records H at a state like any other, so that what cannot be recorded is refused before anything runs.
+  /// Records H at a generic state, so that an H that cannot be recorded is refused before the run.
   TaylorMethod(const P& problem, const AdaptiveOptions& options)
       : options_(options), order_(options.order > 0 ? options.order : cheapest_order(options.tolerance)) {
     const auto [q, p] = detail::any_state<Base, n>(problem);
@@ -61,14 +61,14 @@ class TaylorMethod {
 
   MethodInfo info() const { return describe_taylor(options_, order_); }
   int order() const { return order_; }
-  /// One sweep over the tape, as long as an evaluation of the gradient, is counted for each coefficient.
+  /// Counts one pass over the tape, which costs as much as a gradient, for each coefficient.
   Effort effort() const { return {.gradient = sweeps_}; }
   long long substeps() const { return substeps_; }
   const Tape<Base>& tape() const { return *tape_; }
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
-  /// Repeats the step that failed and returns why it failed. Changes nothing.
+  /// Repeats the failed step and returns why it failed. Changes nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     TaylorMethod again = *this;
     PhasePoint<A, n> copy = z;
@@ -84,7 +84,7 @@ class TaylorMethod {
   }
 
  private:
-  /// The coefficients need not be copied with the method: every expansion writes them anew.
+  /// Coefficients, which are not copied with the method because every expansion computes them again.
   struct Scratch {
     Scratch() = default;
     Scratch(const Scratch&) {}
@@ -95,13 +95,13 @@ class TaylorMethod {
   Outcome advance(const P& problem, const Base& h, PhasePoint<A, n>& z, std::string* why) {
     if (options_.fixed) {
       expand(problem, h, z);
-      if (StopQuestion::answered()) return Outcome::stopped;
+      if (StopQuestion::stop_requested()) return Outcome::stopped;
       add(Base(1), z);
       return Outcome::done;
     }
     const PhasePoint<A, n> start = z;
     Substeps substeps;
-    double unit = 1;  // of time, in steps: less where powers of the step would leave the range
+    double unit = 1;  // of time, in steps; less than 1 if powers of the step would leave the range
     while (!substeps.finished()) {
       double allowed = 0;
       for (;;) {
@@ -110,7 +110,7 @@ class TaylorMethod {
         if (allowed == allowed || unit < Substeps::shortest) break;
         unit /= 1024;
       }
-      if (StopQuestion::answered()) {
+      if (StopQuestion::stop_requested()) {
         z = start;
         return Outcome::stopped;
       }
@@ -128,7 +128,7 @@ class TaylorMethod {
       }
       add(s, z);
       substeps.take(part);
-      // A power of 2, so that it changes no bit of the result.
+      // A power of 2, which does not change a bit of the result.
       if (unit < 1) unit = allowed < 1 ? std::exp2(std::floor(std::log2(allowed))) : 1;
     }
     return Outcome::done;
@@ -137,7 +137,7 @@ class TaylorMethod {
   void record(const P& problem, const Vector<Base, n>& q, const Vector<Base, n>& p) {
     tape_ = std::make_shared<const Tape<Base>>(tape_of_motion(problem, q, p));
   }
-  /// The series at z; a tape that was recorded on another side of a test for equality is recorded anew.
+  /// Computes the series at z. The tape is recorded again if a guard shows that z takes another branch.
   void expand(const P& problem, const Base& unit, const PhasePoint<A, n>& z) {
     const auto& q = z.positions();
     const auto& p = z.momenta();
@@ -178,11 +178,11 @@ class TaylorMethod {
   }
 
   /// The longest sub-step, in units; NaN: powers of the unit left the range.
-  /// @param clocks last positions, which carry the time: their size is none of the motion
+  /// @param clocks number of last coordinates that hold the time and do not count for sizes
   double reach(std::size_t clocks) const {
     const double share = static_cast<double>(std::pow(options_.tolerance, 1.0L / order_)) * std::exp(-2.0 / order_) *
                          (order_ > 1 ? std::exp(-0.7 / (order_ - 1)) : 0.5);
-    const double most = std::fmax(share, std::fmin(3 * share, 0.9));  // of what the second half allows
+    const double most = std::fmax(share, std::fmin(3 * share, 0.9));  // share of the bound by the second half
     double last_two = std::numeric_limits<double>::infinity();
     double second_half = std::numeric_limits<double>::infinity();
     for (const std::size_t block : {std::size_t{0}, tape_->inputs / 2}) {
@@ -196,11 +196,11 @@ class TaylorMethod {
         least = std::fmin(least, radius_by(last, j, sizes));
       }
     }
-    // Last coefficients that vanish by a symmetry tell nothing about the reach.
+    // Last coefficients that vanish by a symmetry do not determine the radius.
     if (last_two > 3 * second_half) return second_half * share;
     return std::fmin(last_two * share, second_half * most);
   }
-  /// Behind the last entry of a block that is one of the motion.
+  /// The end of the entries of a block, without the time.
   std::size_t end_of(std::size_t block, std::size_t clocks) const {
     return block + tape_->inputs / 2 - (block == 0 ? clocks : 0);
   }
@@ -219,7 +219,7 @@ class TaylorMethod {
     }
     return rho;
   }
-  /// log2 of the largest |x_k| of a block; -infinity for 0, infinity or NaN where a coefficient is not finite.
+  /// log2 of the largest |x_k| of a block; -infinity for 0, infinity or NaN if a coefficient is not finite.
   double log_size(std::size_t block, std::size_t end, int k) const {
     Base most(0);
     for (std::size_t i = block; i < end; ++i) {
@@ -253,20 +253,21 @@ class TaylorMethod {
   }
   std::string divergence_reason(double part, const Substeps& substeps) const {
     return "the Taylor series does not converge over a sub-step of " + shortest(part) + " after " +
-           shortest(substeps.done()) + " of the step: is the motion near a singularity of H?";
+           shortest(substeps.done()) + " of the step; the motion may be near a singularity of H";
   }
 
   std::string reason(double part, double allowed, const Substeps& substeps) const {
     if (allowed != allowed) {
       return "the Taylor series has no finite coefficients after " + shortest(substeps.done()) +
-             " of the step: is the motion at a singularity of H?";
+             " of the step; the motion may be at a singularity of H";
     }
     if (part == 0) {
       return "taylor would need a sub-step of " + shortest(allowed) + " after " + shortest(substeps.done()) +
-             " of the step, too short to add up: is the motion near a collision or another singularity?";
+             " of the step, which is too short to change the state; the motion may be near a collision or another "
+             "singularity";
     }
     return "taylor took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
-           shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";
+           shortest(substeps.done()) + " of the step; a shorter step or a larger tolerance helps";
   }
 
   AdaptiveOptions options_;

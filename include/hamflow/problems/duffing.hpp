@@ -14,7 +14,7 @@
 
 namespace hamflow {
 
-/// What a geometric start of k/2 (x^2 - lambda)^2 says of lambda; it begins at rest at r0. E = k lambda_inf^2/2.
+/// lambda from a geometric start in k/2 (x^2 - lambda)^2, which begins at rest at r0. E = k lambda_inf^2/2.
 template <class R>
 struct DuffingCase {
   R lambda;
@@ -73,23 +73,23 @@ class Duffing : public OneDimensional<R> {
             .parameters = {{"mass", "1", "mu", Range::positive},
                            {"alpha", "", "linear stiffness"},
                            {"beta", "", "cubic stiffness"},
-                           {"k", "", "strength, instead of alpha and beta"},
-                           {"lambda", "", "square of the minimum's place, instead of alpha and beta"}},
+                           {"k", "", "strength k, instead of alpha and beta"},
+                           {"lambda", "", "square of the position of the minimum, instead of alpha and beta"}},
             .starts = {{.kind = "case1",
                         .keys = {"r0", "speed"},
-                        .meaning = "at rest at r0, with the given speed at x = 0; 2 zeros",
+                        .meaning = "starts at rest at r0 and has the given speed at x = 0; 2 zeros",
                         .derives = {"lambda"},
                         .example = {{"r0", "1"}, {"speed", "0.25"}},
                         .example_parameters = {{"k", "1"}}},
                        {.kind = "case2",
                         .keys = {"r0"},
-                        .meaning = "at rest at r0, on the separatrix; 3 zeros",
+                        .meaning = "starts at rest at r0 on the separatrix; 3 zeros",
                         .derives = {"lambda"},
                         .example = {{"r0", "1"}},
                         .example_parameters = {{"k", "1"}}},
                        {.kind = "case3",
                         .keys = {"r0", "speed"},
-                        .meaning = "at rest at r0 >= sqrt(lambda), the largest speed given; 4 zeros",
+                        .meaning = "starts at rest at r0 >= sqrt(lambda), with the given largest speed; 4 zeros",
                         .derives = {"lambda"},
                         .example = {{"r0", "1"}, {"speed", "0.25"}},
                         .example_parameters = {{"k", "1"}}}},
@@ -97,7 +97,7 @@ class Duffing : public OneDimensional<R> {
             .region = {.parameters = {{"alpha", "-1"}, {"beta", "1"}}, .centre = {1.3, 0.4}}};
   }
 
-  /// Which parameters would go together, if these do not. lambda of a case counts as given.
+  /// The allowed combinations if these parameters cannot be combined. lambda from a case counts as given.
   static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
     const bool stiffnesses = given.has("alpha") && given.has("beta");
     const bool binomial = given.has("k") && given.has("lambda");
@@ -146,7 +146,7 @@ class Duffing : public OneDimensional<R> {
     return {{r0}, {R(0)}};
   }
 
-  /// The exact state at time t, where the motion is bounded or the force linear.
+  /// The exact state at time t, if the motion is bounded or the force linear.
   std::optional<Start<long double, 1>> exact(const Vector<long double, 1>& q, const Vector<long double, 1>& p,
                                              long double t) const {
     const auto w = static_cast<long double>(this->inverse_mass());

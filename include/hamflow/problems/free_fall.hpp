@@ -23,8 +23,8 @@ class FreeFall : public OneDimensional<R> {
             .formula = "H = p^2/(2 m) + m g q",
             .reference = "Sonnleitner2010, p. 17",
             .coordinates = {"q"},
-            .parameters = {{"mass", "1", "m", Range::positive}, {"gravity", "1", "g"}},
-            // A fall for ever: over a short time, in which H does not become a difference of large numbers.
+            .parameters = {{"mass", "1", "mass m", Range::positive}, {"gravity", "1", "acceleration g"}},
+            // An unbounded fall: a short time, in which H does not become a difference of large numbers.
             .region = {.centre = {0.5, 0.5}, .step = 0.0002, .time = 1}};
   }
 

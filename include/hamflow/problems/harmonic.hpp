@@ -1,6 +1,5 @@
-// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2.
-// Every symmetric method gains an order here or there: never measure an order on it. The orbit is exact:
-// q(t) = q0 cos(omega t) + p0/(m omega) sin(omega t).
+// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2. Many symmetric methods have a higher order on it, so it must
+// not be used to measure orders. The orbit is exact: q(t) = q0 cos(omega t) + p0/(m omega) sin(omega t).
 #pragma once
 
 #include <optional>
@@ -26,7 +25,7 @@ class Harmonic : public OneDimensional<R> {
             .formula = "H = p^2/(2 m) + m omega^2 q^2/2",
             .reference = "any textbook",
             .coordinates = {"q"},
-            .parameters = {{"mass", "1", "m", Range::positive}, {"omega", "1", "angular frequency"}},
+            .parameters = {{"mass", "1", "mass m", Range::positive}, {"omega", "1", "angular frequency"}},
             .region = {.centre = {1.0, 0.5}, .spread = 0.2}};
   }
 

@@ -44,7 +44,7 @@ class Magnetic {
                        {"charge", "1", "e"},
                        {.name = "field",
                         .default_value = "[0, 0, 1]",
-                        .meaning = "B, uniform",
+                        .meaning = "uniform magnetic field B",
                         .type = OptionType::list,
                         .length = 3}},
         .invariants = {{"angular_momentum", "e B.(x x p)/(e |B|): the component along the field; without one, along z",
@@ -90,7 +90,7 @@ class Magnetic {
     return {l[0] * b[0] + l[1] * b[1] + l[2] * b[2], p[0] * b[0] + p[1] * b[1] + p[2] * b[2]};
   }
 
-  // What boris needs.
+  // Functions for boris.
   /// v = (p - (e/2) B x q)/m.
   template <class S>
   void velocity_of(const Vector<S, 3>& q, const Vector<S, 3>& p, Vector<S, 3>& v) const {
@@ -106,7 +106,7 @@ class Magnetic {
   /// e B/m: v' = v x rotation.
   Vector<R, 3> rotation() const { return {strength_[0] / mass_, strength_[1] / mass_, strength_[2] / mass_}; }
 
-  /// The helix: the velocity turns about the field at the rate |e B/m|, the position follows by integration.
+  /// The helix: the velocity rotates about the field at the rate |e B/m|; the position follows by integration.
   std::optional<Start<long double, 3>> exact(const Vector<long double, 3>& q, const Vector<long double, 3>& p,
                                              long double t) const {
     using L = long double;
@@ -122,7 +122,7 @@ class Magnetic {
     }
     const Vector<L, 3> axis{omega[0] / rate, omega[1] / rate, omega[2] / rate};
     const L along = v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
-    const Vector<L, 3> turned = exactly.cross(v, axis);  // v x axis: where the velocity turns to
+    const Vector<L, 3> turned = exactly.cross(v, axis);  // v x axis: the direction in which the velocity rotates
     const L angle = rate * t;
     const L s = sin(angle);
     const L half = sin(angle / 2);

@@ -60,8 +60,8 @@ class Pendulum : public OneDimensional<R> {
     const auto inverse_inertia = static_cast<Long>(this->inverse_mass());
     const auto torque = static_cast<Long>(torque_);
     const Long w0 = sqrt(abs(torque) * inverse_inertia);
-    // The angle from the stable rest, in turns; s and c come from q itself, so that c is right to its last digit near
-    // the unstable rest.
+    // The angle from the stable equilibrium, in turns; s and c are computed from q itself, so that c is accurate near
+    // the unstable equilibrium.
     const Long rest = torque < 0 ? pi : 0;
     Long turns = nearbyint((q[0] - rest) / (2 * pi));
     Long s = torque < 0 ? -cos(q[0] / 2) : sin(q[0] / 2);
@@ -70,13 +70,13 @@ class Pendulum : public OneDimensional<R> {
       s = -s;
       c = -c;
     }
-    if (c < 0) {  // the quotient was rounded across the unstable rest
+    if (c < 0) {  // the quotient was rounded across the unstable equilibrium
       turns += copysign(Long(1), s);
       s = -s;
       c = -c;
     }
     const Long centre = rest + 2 * pi * turns;
-    // H is even in (q, p): what moves backwards is the mirror image of what moves forwards.
+    // H is even in (q, p): a backward motion is the mirror image of a forward motion.
     const Long direction = p[0] < 0 ? -1 : 1;
     s *= direction;
     const Long v = abs(p[0]) * inverse_inertia / 2;

@@ -22,9 +22,9 @@ class SolarSystem : public Gravity<R> {
                     .reference = "HLW2006, Sect. I.2.4",
                     .coordinates = {"x1", "y1", "z1", "...", "z6"},
                     .invariants = Gravity<R>::gravity_invariants(),
-                    // The numbers are heliocentric: unmoved, the system would drift by 2250 AU in 10^6 years.
+                    // The data are heliocentric: without the shift the system would drift by 2250 AU in 10^6 years.
                     .frame = Gravity<R>::frame_key(StartFrames::barycentric),
-                    // Days; momenta are as small as 1e-11, and any larger move would throw the planets out.
+                    // Days. Momenta are as small as 1e-11; a larger spread would eject the planets.
                     .region = {.spread = 1e-13, .step = 50, .time = 1000},
                     .example = {.dt = 20, .steps = 10000}};  // Jupiter takes 4333 days for one round
     for (const Body& body : bodies) {
@@ -36,7 +36,7 @@ class SolarSystem : public Gravity<R> {
     }
     return all;
   }
-  /// Of the Sun with the inner planets, Jupiter, Saturn, Uranus, Neptune, Pluto, in solar masses.
+  /// The masses of the Sun with the inner planets, Jupiter, Saturn, Uranus, Neptune, Pluto, in solar masses.
   static std::vector<R> masses() {
     std::vector<R> all;
     for (const Body& body : bodies) all.push_back(evaluate_number<R>(body.mass));

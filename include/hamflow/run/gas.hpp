@@ -1,4 +1,4 @@
-// What the gas of the catalogue is made of.
+// Names and options of the gas of the catalogue.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct GasKeys {
   static constexpr const char* pair = "pair";
   static constexpr const char* container = "container";
   static constexpr const char* cutoff_kind = "cutoff_kind";
-  static constexpr const char* typed = "formula";  // the word for a pair law that is typed
+  static constexpr const char* typed = "formula";  // the word for a typed pair law
   static constexpr const char* phi = "phi";
   static constexpr const char* parameters = "parameters";
   // Parameters.
@@ -26,14 +26,14 @@ struct GasKeys {
   static constexpr const char* dimension = "dimension";
   static constexpr const char* scale = "scale";
   static constexpr const char* radius = "radius";      // of the circle
-  static constexpr const char* exponent = "exponent";  // of its soft wall
+  static constexpr const char* exponent = "exponent";  // of the soft wall
   static constexpr const char* size = "size";          // of a box
   static constexpr const char* cutoff = "cutoff";
   static constexpr const char* inner = "inner";
   static constexpr const char* skin = "skin";
 };
 
-/// The keys of [problem] with the gas.
+/// The keys of [problem] for the gas.
 struct GasOptions {
   OptionInfo particles_per_side, start, file, seed, masses, dimension, pair, phi, parameters, scale, container, cutoff;
   struct Container {
@@ -44,7 +44,7 @@ struct GasOptions {
   } of_cutoff;
 };
 const GasOptions& gas_options();
-/// All of them, in the order in which they are shown, those of pair laws too.
+/// All options, in the order in which they are shown, including those of pair laws.
 const std::vector<OptionInfo>& all_gas_options();
 
 struct GasStarts {
@@ -57,7 +57,7 @@ struct GasScales {
   static constexpr const char* listing = "listing";
 };
 
-/// The pair laws that are built in: names, formulas and parameters.
+/// The built-in pair laws: names, formulas and parameters.
 const std::vector<ProblemInfo>& pair_laws();
 
 }  // namespace hamflow

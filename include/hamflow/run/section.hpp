@@ -1,9 +1,9 @@
-// Poincare sections: the states in which a coordinate, or an expression, x passes a value, found on partial steps.
-// Between two steps of opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so
-// that a point of the section lies on the energy level of the method like any of its steps.
+// Poincare sections: the states in which x, a coordinate or an expression, passes a value. Between two steps with
+// opposite signs of x - value, x(Psi_tau(z_n)) = value is solved for tau to rounding, with partial steps of the method,
+// so that a point of the section lies on the same energy level as the steps.
 //
-// Steps that are long beside the motion, as those may be that are made of sub-steps of the method's own, are seen in
-// pieces: halved until five points of each are on a cubic, and with whatever crosses between them out and back.
+// Steps that are long compared with the motion, as those with adaptive sub-steps can be, are divided into pieces by
+// halving, until five points of each lie on a cubic. All crossings between these points are found, too.
 #pragma once
 
 #include <array>
@@ -22,16 +22,16 @@
 namespace hamflow {
 
 struct Section {
-  std::size_t coordinate = 0;  // of q, or of p; beside an expression the first of which it is made, if it is
+  std::size_t coordinate = 0;  // index in q or p; for an expression the first coordinate in it, if any
   bool momentum = false;
   double value = 0;
-  std::string value_text{};                     // of the value, for runs beyond double; empty: the double
+  std::string value_text{};                     // the value as text, for runs beyond double; empty: the double
   ExpressionInDigits in_digits{};               // the expression, for runs beyond double
   int direction = 1;                            // 1: x increases along the run, -1: it decreases, 0: both
-  std::optional<StateExpression> expression{};  // x, in place of the coordinate
+  std::optional<StateExpression> expression{};  // x, instead of the coordinate
   bool by_time_alone = false;                   // x is an expression of t, and the points are stroboscopic
-  bool by_steps = false;    // of a map: the state behind the step that passes the value is the point
-  bool every_step = false;  // of a map: every step is a point; by_steps and by_time_alone hold too
+  bool by_steps = false;    // for a map: the point is the state after the step that passes the value
+  bool every_step = false;  // for a map: every step is a point; by_steps and by_time_alone are true, too
 };
 
 struct SectionPoint {
@@ -42,12 +42,12 @@ struct SectionPoint {
   FrameDigits digits{};  // time, q and p in arithmetic beyond double; else empty
 };
 
-/// Of changes of sign that are no points of a section and no events.
+/// The message about changes of sign that are not points of a section or events.
 std::string jumps_text(std::int64_t jumps);
 
-/// Finds the points of a section between steps that it is told. A start on the section is not counted as a point. A
-/// touch, x = value without a change of sign, is a point that is approached from its own side: with direction 1 from
-/// below. Two crossings between which |x - value| stays below 2^-44 of its size in the step are one touch.
+/// Finds the points of a section in given steps. A start on the section is not a point. A touch, x = value without a
+/// change of sign, is a point if x approaches from the side of `direction`: from below for direction 1. Two crossings
+/// between which |x - value| stays below 2^-44 of its size in the step count as one touch.
 class SectionSearch {
  public:
   SectionSearch(Section section, std::function<void(const SectionPoint&)> found)
@@ -55,47 +55,49 @@ class SectionSearch {
   const Section& section() const { return section_; }
   /// x - value.
   double distance(const Frame& frame) const;
-  /// Whether there is a point in a step that changes x - value in this way.
+  /// Whether a step with these values of x - value at its ends has a point.
   bool crosses(double before, double now) const {
     if (!(before != 0 && (now == 0 || (now > 0) != (before > 0)))) return false;
     return section_.direction == 0 || section_.direction == (before < 0 ? 1 : -1);
   }
-  /// Whether a step may hold more zeros than the signs at its ends show: whether they fit under a second derivative of
-  /// four times what the last two differences of x show. True of a step that has no difference before it. To be called
-  /// once for every step, in their order.   @param bounced the step has bounces: its difference predicts nothing
+  /// Whether a step may have more zeros than the signs at its ends show, that is, whether these are possible with four
+  /// times the second derivative estimated from the last two differences of x. True if there is no earlier difference.
+  /// To be called once for every step, in order. @param bounced the step has bounces, so that its difference predicts
+  /// nothing
   bool may_hide_zeros(double before, double now, bool bounced = false);
-  /// Of a map: takes the state behind a step, if it is a point.
+  /// For a map: records the state after a step, if it is a point.
   void take_step(double before, double now, const Frame& behind) {
     if (section_.every_step || crosses(before, now)) {
       take({behind.time, behind.q, behind.p, section_.every_step ? 0 : std::abs(now), behind.digits});
     }
   }
-  /// Finds it.   @param before_step as it is before the step   @param before, now x - value before the step and behind
+  /// Locates the point of a step. @param before_step the simulation before the step @param before, now x - value before
+  /// and after the step
   void locate(const Simulation& before_step, double before, double now);
-  /// Finds all points of a step that may be long. One that is alone has the digits that locate() finds.
-  /// @param frame behind the step   @param bounced it has bounces: under some rules the run did not go through the
-  /// parts that are looked at, and nothing is missed by that
+  /// Locates all points of a step that may be long. A single point gets the same digits as from locate().
+  /// @param frame the state after the step @param bounced the step has bounces; with some wall rules the run does not
+  /// follow the partial steps that are evaluated, but no point is missed
   void locate_all(const Simulation& before_step, double before, const Frame& frame, double now, bool bounced = false);
-  /// Looks for the first point in a step that fails, as far into it as partial steps lead.
+  /// Searches for the first point in a step that fails, as far as partial steps succeed.
   void locate_in_failed_step(const Simulation& before_step, double before);
-  /// Now and then looks into the step that follows, of a method without sub-steps of its own: from the first that is
-  /// long beside the motion on, all are. No single bounce or jump makes one long.
+  /// For a method without adaptive sub-steps: tests whether the next step is long compared with the motion. All steps
+  /// count as long from the first such step on. A single bounce or jump does not make a step long.
   void measure(const Simulation& before_step) { is_long_ = is_long_ || is_long(before_step); }
-  /// Whether to do so behind so many steps.
+  /// Whether to call measure() after this step.
   bool is_to_measure(std::int64_t step) const { return !is_long_ && step % steps_between == 0; }
   /// Whether steps are long, and locate_all() finds their points.
   bool is_long() const { return is_long_; }
-  /// Seeks no more.
+  /// Ends the search.
   void give_up() { failed_ = true; }
   std::int64_t points() const { return points_; }
   double max_residual() const { return max_residual_; }
-  /// Changes of sign that were no zeros: the expression jumps there, or has a pole.
+  /// The number of changes of sign that were not zeros: the expression jumps or has a pole there.
   std::int64_t jumps() const { return jumps_; }
-  /// Whether a step of the search failed: no points are sought after that.
+  /// Whether a step of the search failed; no points are searched for after that.
   bool failed() const { return failed_; }
-  /// What is to be said of changes of sign that were no points, and of a search that has failed; empty: nothing.
+  /// The message about changes of sign that were not points and about a failed search; may be empty.
   std::string message() const;
-  /// Long steps into which nobody could look closely enough: even numbers of crossings in them may have been missed.
+  /// The number of steps that were too long to be searched completely: pairs of crossings in them may have been missed.
   std::int64_t unseen() const { return unseen_; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -109,18 +111,18 @@ class SectionSearch {
     double x = 0;               // x - value
     std::vector<double> state;  // q and p
   };
-  /// Where x - value changes its sign; from == to of a touch.
+  /// An interval in which x - value changes its sign; from == to for a touch.
   struct Change {
     double from, to, before, now;
   };
-  /// The part of a step between five equidistant samples.
+  /// A part of a step, with five equidistant samples.
   using Piece = std::array<Sample, 5>;
 
   static constexpr std::int64_t steps_between = 256;
   bool is_long(const Simulation& before_step);
   Sample sample(const Simulation& before_step, double theta);
   Sample sample_of(double theta, const Frame& frame) const;
-  /// Fills in what is between the ends and the middle.
+  /// Fills in the samples between the ends and the middle.
   void complete(const Simulation& before_step, Piece& piece);
   bool is_cubic(const Simulation& before_step, const Piece& piece, double parts);
   bool has(const Piece& piece, const std::array<double, 5>& weights, const Sample& sample, double parts) const;
@@ -140,27 +142,28 @@ class SectionSearch {
   double max_residual_ = 0;
   std::int64_t unseen_ = 0;
   bool is_long_ = false;
-  // The differences of x over the last step, and between the last two; NaN where there are none.
+  // The difference of x over the last step, and over the step before; NaN if there is none.
   double last_change_ = std::numeric_limits<double>::quiet_NaN();
   double last_bend_ = std::numeric_limits<double>::quiet_NaN();
-  double before_last_ = std::numeric_limits<double>::quiet_NaN();  // x - value one step before the present one begins
+  double before_last_ =
+      std::numeric_limits<double>::quiet_NaN();  // x - value one step before the start of the present step
   Frame partial_;
-  std::vector<Change> changes_;  // of the present step
-  int looks_ = 0;                // into it
+  std::vector<Change> changes_;  // changes of sign in the present step
+  int looks_ = 0;                // partial steps evaluated in it
   bool too_coarse_ = false;
 };
 
-/// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
-/// blocks of one, some hundred nanoseconds a step. It looks into those that may hide zeros, that were made of several
-/// sub-steps of the method's own, or that have bounces, where x may jump; of other methods now and then into one, and
-/// into all from the first that is long.
+/// Finds the points of a section during a run, without changing it. It observes every step, so that the run goes in
+/// blocks of one step, at some hundred nanoseconds per step. It searches steps that may have hidden zeros, that consist
+/// of several adaptive sub-steps, or that have bounces, where x may jump. With other methods it tests a step now and
+/// then, and searches all steps from the first long one on.
 class SectionFinder final : public Observer {
  public:
-  /// @param simulation the simulation that is observed
+  /// @param simulation the observed simulation
   SectionFinder(const Simulation& simulation, const Section& section, std::function<void(const SectionPoint&)> found);
   std::int64_t next_due(std::int64_t step) const override { return failed() ? never : step; }
   Verdict observe(const Frame& frame) override;
-  /// Looks for the first point in the step that failed, from the present state on.
+  /// Searches for the first point in the step that failed, from the present state on.
   void look_into_failed_step() {
     if (begun_ && !search_.section().by_steps) search_.locate_in_failed_step(simulation_, before_);
   }
@@ -186,8 +189,8 @@ class SectionFinder final : public Observer {
   bool begun_ = false;
   bool has_own_substeps_;
   int order_;
-  long long work_ = 0;        // evaluations up to the last step; of a map the number of that step
-  std::int64_t bounces_ = 0;  // up to there
+  long long work_ = 0;        // evaluations up to the last step; for a map the number of that step
+  std::int64_t bounces_ = 0;  // bounces up to the last step
 };
 
 }  // namespace hamflow

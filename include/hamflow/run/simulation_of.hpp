@@ -1,4 +1,4 @@
-// The typed simulation behind the type-erased one: a problem, a method bound to it, an arithmetic and a probe.
+// The typed simulation that implements the type-erased one: a problem, a method for it, an arithmetic and a probe.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,9 @@ namespace hamflow {
 template <class M, class P, class A>
 concept Method = Problem<P> && Arithmetic<A> &&
     requires(M& method, const P& problem, typename A::Real h, PhasePoint<A, P::dimension>& z) {
-  { method.step(problem, h, z) } -> std::same_as<Outcome>;  // no allocation, no IO, no bookkeeping of time
+  {
+    method.step(problem, h, z)
+    } -> std::same_as<Outcome>;  // no allocation, no input or output; does not advance the time
   { method.info() } -> std::same_as<MethodInfo>;
   { method.effort() } -> std::same_as<Effort>;
   method.invalidate();  // the state was changed from outside
@@ -49,8 +51,8 @@ class SimulationOf : public SimulationState<P, A, Probe> {
                Real t0 = 0)
       : State(std::move(problem), q, p, h, arithmetic, t0), method_(std::move(method)) {}
 
-  /// Reversible steps of varying length from here on, of a symmetric method; the first has the length of the equal ones
-  /// (detail/methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
+  /// From now on takes reversible steps of varying length, for a symmetric method; the first has the length of the
+  /// equal steps (detail/methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
   [[gnu::cold]] void vary_steps(typename State::Monitor monitor) {
     State::begin_varying(std::move(monitor));
     if constexpr (requires { method_.take_any_steps(); }) method_.take_any_steps();
@@ -61,7 +63,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
     if (density_) return take_varying(steps);
     std::int64_t taken = 0;
-    const Outcome outcome = march(steps, clock_.step_length(), taken, method_, z_, probe_);
+    const Outcome outcome = advance_in_registers(steps, clock_.step_length(), taken, method_, z_, probe_);
     clock_.advance(taken);
     return outcome;
   }
@@ -76,7 +78,8 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   }
   void negate_momenta() override {
     z_.negate_momenta();
-    if constexpr (requires { method_.negate_momenta(); }) method_.negate_momenta();  // of a copy that it carries
+    if constexpr (requires { method_.negate_momenta(); })
+      method_.negate_momenta();  // for a method with a copy of the state
     if (density_) density_->turn(this->monitored_rate());
     method_.invalidate();
   }
@@ -103,7 +106,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   [[gnu::cold]] std::vector<std::byte> save() const override {
     Writer ar;
     State::save_state(ar);
-    if constexpr (detail::HasArchive<M, Writer>) ar(method_);  // others have no memory
+    if constexpr (detail::HasArchive<M, Writer>) ar(method_);  // other methods have no memory
     return ar.take();
   }
   [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
@@ -122,7 +125,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<SimulationOf>(*this); }
 
  private:
-  /// What a step adds to the coordinate of the time: on the lattice an integer, the same in every step.
+  /// Measures the increment of the time coordinate in a step: on the lattice an integer, the same in every step.
   [[gnu::cold]] void measure_span_of_clock() {
     if constexpr (A::exact_undo) {
       M method = method_;
@@ -135,27 +138,27 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   [[gnu::cold]] void turn_clock() {
     measure_span_of_clock();
     if (!density_) this->set_clock_after(0, clock_.step(), z_);
-    tell_time(method_, z_);
+    set_method_time(method_, z_);
   }
-  /// A method may carry a copy of the state; and on the lattice the last force of a step is not the first one of the
-  /// next, whose time is rounded anew: else the way back would not meet it.
-  static void tell_time(M& method, [[maybe_unused]] const PhasePoint<A, n>& z) {
+  /// Passes the new time to the method, which may hold a copy of the state. On the lattice the last force of a step is
+  /// not kept for the next one, because the time is rounded again; otherwise steps could not be reversed exactly.
+  static void set_method_time(M& method, [[maybe_unused]] const PhasePoint<A, n>& z) {
     if constexpr (requires { method.set_clock(z); }) method.set_clock(z);
     if constexpr (A::exact_undo) method.invalidate();
   }
   [[gnu::cold]] Outcome complete_step() final {
     const Outcome outcome = State::complete_step();
-    if (has_clock(problem_)) tell_time(method_, z_);
+    if (has_clock(problem_)) set_method_time(method_, z_);
     return outcome;
   }
 
-  /// One by one: each knows the length of the next.
+  /// Takes varying steps one by one, since each determines the length of the next.
   [[gnu::cold, gnu::noinline]] Outcome take_varying(std::int64_t steps) {
     for (; steps > 0; --steps) {
       if (!density_->is_usable()) return Outcome::not_converged;
       const Real h = density_->length();
       std::int64_t taken = 0;
-      const Outcome outcome = march(1, h, taken, method_, z_, probe_);
+      const Outcome outcome = advance_in_registers(1, h, taken, method_, z_, probe_);
       if (outcome != Outcome::done) return outcome;
       clock_.advance(1);
       density_->advance(h, this->monitored_rate());
@@ -166,11 +169,11 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   [[gnu::cold]] Outcome show_after(const Real& part, const Real& t, Frame& frame) const override {
     if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
     M method = method_;
-    method.invalidate();  // what it remembers belongs to steps of length h
+    method.invalidate();  // its memory belongs to steps of length h
     PhasePoint<A, n> z = z_;
     Probe probe = probe_;
     std::int64_t taken = 0;
-    const Outcome outcome = march(1, part, taken, method, z, probe);
+    const Outcome outcome = advance_in_registers(1, part, taken, method, z, probe);
     if constexpr (MayHaveClock<P>) {
       if (has_clock(problem_)) set_clock(z, TimeWords<Real>{t, Real(0)});
     }
@@ -179,11 +182,11 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   }
 
  protected:
-  /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. Trouble is found
-  /// cheaply, after the fact; the way to the last good step is then walked again from the unchanged originals.
-  /// @param h that of the clock, or of a partial step
-  [[gnu::noinline]] Outcome march(std::int64_t steps, const Real& h, std::int64_t& taken, M& method_out,
-                                  PhasePoint<A, n>& z_out, Probe& probe_out) const {
+  /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. A failure is
+  /// detected cheaply afterwards; the steps up to the last good one are then repeated from the unchanged originals.
+  /// @param h the step of the clock, or of a partial step
+  [[gnu::noinline]] Outcome advance_in_registers(std::int64_t steps, const Real& h, std::int64_t& taken, M& method_out,
+                                                 PhasePoint<A, n>& z_out, Probe& probe_out) const {
     M method = method_out;
     PhasePoint<A, n> z = z_out;
     Probe probe = probe_out;
@@ -198,14 +201,14 @@ class SimulationOf : public SimulationState<P, A, Probe> {
       if (!probe.look(problem, z.positions(), z.momenta(), this->time_after(i + 1, h))) [[unlikely]] {
         return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
       }
-      if constexpr (MayHaveClock<P>) {  // behind the probe, which sees the time of the last force
+      if constexpr (MayHaveClock<P>) {  // after the probe, which needs the time of the last force
         if (has_clock(problem)) {
           this->set_clock_after(i + 1, h, z);
-          tell_time(method, z);
+          set_method_time(method, z);
         }
       }
     }
-    if (!is_finite(problem, z)) {  // without a probe nobody has looked yet
+    if (!is_finite(problem, z)) {  // without a probe this has not been checked yet
       return one_by_one(steps, h, taken, method_out, z_out, probe_out);
     }
     method_out = method;
@@ -216,29 +219,29 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   }
 
  private:
-  /// Takes single steps from the originals up to the one that is not finite. Cold, or the compiler would make a second
-  /// march for single steps.
+  /// Takes single steps from the originals up to the one that is not finite. It is cold, so that the compiler does not
+  /// make a second copy of advance_in_registers for single steps.
   [[gnu::cold, gnu::noinline]] Outcome one_by_one(std::int64_t steps, const Real& h, std::int64_t& taken, M& method,
                                                   PhasePoint<A, n>& z, Probe& probe) const {
     for (std::int64_t i = 0; steps > 1 && i < steps; ++i) {
-      const Outcome outcome = march(1, h, taken, method, z, probe);
+      const Outcome outcome = advance_in_registers(1, h, taken, method, z, probe);
       if (outcome != Outcome::done) return outcome;
     }
     return Outcome::non_finite;
   }
-  /// Takes `good` steps from the originals, which are known to succeed, and reports why the next one did not.
+  /// Takes `good` steps from the originals, which are known to succeed, and reports why the next one fails.
   [[gnu::cold]] Outcome retrace(std::int64_t good, Outcome why, const Real& h, std::int64_t& taken, M& method,
                                 PhasePoint<A, n>& z, Probe& probe) const {
     if (good > 0) {
-      const Outcome again = march(good, h, taken, method, z, probe);
+      const Outcome again = advance_in_registers(good, h, taken, method, z, probe);
       if (again != Outcome::done) return again;
     }
     return why;
   }
 
  protected:
-  /// Here and not in the base, where several methods would share it: what a call by reference gets cannot live in
-  /// registers.
+  /// It is here and not in the base class, where several methods would share it, because arguments passed by reference
+  /// cannot stay in registers.
   static bool is_finite(const P& problem, const PhasePoint<A, n>& z) {
     const auto q = z.positions();
     const auto p = z.momenta();
@@ -253,10 +256,10 @@ class SimulationOf : public SimulationState<P, A, Probe> {
 template <class P, class M>
 using DefaultArithmetic = std::conditional_t<always_compensated<M>(), Compensated<RealOf<P>>, Plain<RealOf<P>>>;
 
-/// A simulation whose method is a type: everything is inlined into one loop.
+/// A simulation with a typed method, all of which is inlined into one loop.
 ///     auto orbit = hamflow::simulate(problem, Composition<compositions::stv4>{}, {0.4, 0}, {0, 2}, 0.1);
 /// @param q, p canonical start   @param h step length
-/// @tparam Watch false drops the probe that looks at energy and invariants in every step
+/// @tparam Watch false removes the probe of energy and invariants at every step
 template <bool Watch = true, class P, MethodRecipe Method, class A = DefaultArithmetic<P, Method>>
 auto simulate(const P& problem, const Method& recipe, const Vector<typename A::Real, P::dimension>& q,
               const Vector<typename A::Real, P::dimension>& p, typename A::Real h, A arithmetic = {}) {
@@ -265,14 +268,14 @@ auto simulate(const P& problem, const Method& recipe, const Vector<typename A::R
   return SimulationOf<P, M, A, Probe>(problem, recipe.template bind<P, A>(problem), q, p, h, arithmetic);
 }
 
-/// The same with a start in braces, whose numbers are counted: a vector would be filled up with 0.
+/// The same with a start in braces, whose numbers are counted at compile time; a vector would be filled up with zeros.
 template <bool Watch = true, class P, MethodRecipe Method, std::size_t of_q, std::size_t of_p,
           class A = DefaultArithmetic<P, Method>>
 requires(P::dimension != dynamic) auto simulate(const P& problem, const Method& recipe,
                                                 const typename A::Real (&q)[of_q], const typename A::Real (&p)[of_p],
                                                 typename A::Real h, A arithmetic = {}) {
   static_assert(of_q == P::dimension && of_p == P::dimension,
-                "hamflow: a start has as many coordinates, and as many momenta, as the problem has degrees of freedom");
+                "hamflow: a start needs as many coordinates and as many momenta as the problem has degrees of freedom");
   Vector<typename A::Real, P::dimension> at_q{};
   Vector<typename A::Real, P::dimension> at_p{};
   std::copy(q, q + of_q, at_q.begin());

@@ -1,4 +1,4 @@
-// Hard and soft walls on coordinates, as a scenario and a request describe them.
+// Hard and soft walls on coordinates, for scenarios and requests.
 #pragma once
 
 #include <compare>
@@ -11,12 +11,12 @@
 
 namespace hamflow {
 
-/// What happens where a coordinate meets a hard wall (docs/design.md, Walls), or that walls are terms of H.
+/// The rule for a coordinate that hits a hard wall (docs/design.md, Walls); `soft`: walls are terms of H.
 enum class WallRule { event, mirror, reject, soft };
-/// Their names, in this order.
+/// The names of the rules, in this order.
 const std::vector<std::string>& wall_rules();
 
-/// The keys of [problem] for them, and those of each entry of `walls`.
+/// The keys of [problem] for walls, and the keys of each entry of `walls`.
 struct WallKeys {
   OptionInfo walls, wall_rule, strength, exponent;
   OptionInfo coordinate, min, max;
@@ -25,8 +25,8 @@ const WallKeys& wall_keys();
 
 struct Walls {
   struct Interval {
-    std::string coordinate;  // its name
-    std::size_t index = 0;   // among the coordinates
+    std::string coordinate;  // name
+    std::size_t index = 0;   // of the coordinate
     std::string min;         // number expressions; empty: no wall on that side
     std::string max;
     friend auto operator<=>(const Interval&, const Interval&) = default;
@@ -34,26 +34,26 @@ struct Walls {
   std::vector<Interval> intervals;
   WallRule rule = WallRule::event;
   std::string strength = "1";  // of soft walls
-  std::string exponent = "2";  // of their force
+  std::string exponent = "2";  // of the force of soft walls
   bool hard() const { return rule != WallRule::soft; }
   friend auto operator<=>(const Walls&, const Walls&) = default;
 };
 
-/// One side of an interval, in the numbers of a run.
+/// One side of an interval, in the number type of a run.
 template <class R>
 struct WallSide {
   std::size_t coordinate = 0;
-  int side = 1;  // -1: the wall below, 1: that above
+  int side = 1;  // -1: the lower wall, 1: the upper wall
   R at{};
-  /// How far beyond the wall q is; negative: inside.
+  /// The distance of q beyond the wall; negative inside.
   /// @tparam S R, or a recording of it
   template <class S>
   S beyond(const S& q) const {
     return side > 0 ? S(q - S(at)) : S(S(at) - q);
   }
-  /// Above 0 where the motion may have been beyond the wall between two points that are inside: one that turns once
-  /// between them has not been where it would still be inside after two steps of the same velocity from either end.
-  /// @param ahead, behind the change of the coordinate in two steps, from the first point and to the second one
+  /// Positive if the motion may have been beyond the wall between two points inside. A motion that turns once between
+  /// them has stayed inside if it would still be inside after two steps with constant velocity from either end.
+  /// @param ahead, behind the change of the coordinate in two steps, from the first point and to the second point
   template <class S>
   S beyond_between(const S& q0, const S& ahead, const S& q1, const S& behind) const {
     return -larger(S(-beyond(S(q0 + ahead))), S(-beyond(S(q1 - behind))));
@@ -69,8 +69,8 @@ std::vector<WallSide<R>> wall_sides(const Walls& walls) {
   return sides;
 }
 
-/// Where walls of the lattice stand: on the nearest odd multiple of half a unit, so that no position is on a wall and a
-/// reflection is one-to-one.
+/// The position of a wall on the lattice: the nearest odd multiple of half a unit, so that no position is on a wall and
+/// reflections are one-to-one.
 double on_half_lattice(double wall, double unit);
 
 }  // namespace hamflow

@@ -158,7 +158,7 @@ class ExtrapolatedMidpointMethod {
     Change rate;
     combine(before, h, first_, now);
     for (int k = 1; k < parts; ++k) {
-      stopped_ = StopQuestion::answered();
+      stopped_ = StopQuestion::stop_requested();
       if (stopped_ || is_astray(now)) break;
       rate_at(problem, now, rate);
       combine(before, Real(2) * h, rate, after);

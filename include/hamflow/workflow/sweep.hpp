@@ -43,7 +43,7 @@ struct SweepReport {
 class ScenarioSweep {
  public:
   /// Reads and checks every member. Where something is wrong, complaints() holds it and nothing can be run.
-  /// @throws FileError   @throws ReadingStopped where a StopQuestion of the caller's thread is answered
+  /// @throws FileError   @throws ReadingStopped if a StopQuestion of the caller's thread requests a stop
   explicit ScenarioSweep(const SweepRequest& request);
   ~ScenarioSweep();
   ScenarioSweep(const ScenarioSweep&) = delete;

@@ -34,8 +34,9 @@ struct Avf {
         .needs = [](std::size_t) { return "a twice differentiable H"; },
         .advice =
             [](std::size_t) {
-              return MethodAdvice{.take = "cg is asked for by this name",
-                                  .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do: verlet"};
+              return MethodAdvice{
+                  .take = "you know cg by this name",
+                  .avoid = "a higher order is needed: cg(2), cg(3); many cheap steps are enough: verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

@@ -11,18 +11,18 @@ namespace hamflow::families {
 struct Boris {
   static MethodFamily declared() {
     return {.name = "boris",
-            .meaning = "the push of a charge in a magnetic field",
+            .meaning = "the Boris push of a charge in a magnetic field",
             .methods = {"boris"},
             .rank = 2,
-            .not_on_lattice = "boris rotates velocities, which is no bijection of the lattice",
+            .not_on_lattice = "boris rotates velocities, which is not a bijection of the lattice",
             .describe = [](std::size_t, const Texts&) { return describe_boris(); },
             .needs = [](std::size_t) { return "a charge in a uniform magnetic field (problem magnetic)"; },
             .advice =
                 [](std::size_t) {
                   return MethodAdvice{.take = "a charge in a magnetic field needs many cheap steps",
                                       .avoid =
-                                          "the phase of the gyration has to be right with few steps a turn: "
-                                          "taylor; the problem is another one: cg takes any H"};
+                                          "few steps per turn must give the right phase of the gyration: taylor; the "
+                                          "problem is another one: cg takes any H"};
                 }};
   }
   template <class F>

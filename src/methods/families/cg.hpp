@@ -37,19 +37,20 @@ struct Cg {
         .needs = [](std::size_t) { return "a twice differentiable H"; },
         .advice =
             [](std::size_t) {
-              return MethodAdvice{
-                  .purpose =
-                      "any twice differentiable H; with quadrature auto the energy stays at rounding, whatever dt is",
-                  .take = "H is not T(p) + V(q), the energy has to be exact, or the motion is stiff",
-                  .avoid =
-                      "many cheap steps do for H = T(p) + V(q): verlet, kahan-li8; bits have to come back "
-                      "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
+              return MethodAdvice{.purpose =
+                                      "any twice differentiable H; with quadrature auto the energy error stays at "
+                                      "rounding level for any dt",
+                                  .take = "H is not T(p) + V(q), the energy must be exact, or the motion is stiff",
+                                  .avoid =
+                                      "many cheap steps are enough for H = T(p) + V(q): verlet, kahan-li8; the run "
+                                      "must reverse bit for bit (lattice): stv4; the angular momentum in Cartesian "
+                                      "coordinates must be conserved: verlet"};
             },
         .refused = refused,
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
-  /// cg(1) by Newton has kernels of its own, compiled with each problem.
+  /// cg(1) with Newton has special kernels, compiled with each problem.
   template <class F>
   static auto visit(std::size_t, const std::any& given, F&& f) {
     const auto& chosen = std::any_cast<const CgOptions&>(given);

@@ -22,7 +22,8 @@ struct Composition {
       const CompositionTable& table = table_of(method);
       const MethodInfo info = describe(table, starts_with(method));
       MethodAdvice advice = advice_of(table.advice, info, false);
-      if (starts_with(method) == StartsWith::drift) advice.purpose.clear();  // the list begins with one of the two
+      if (starts_with(method) == StartsWith::drift)
+        advice.purpose.clear();  // the list of recommended methods has only one of the two
       return advice;
     };
     family.digits = [](std::size_t method) {

@@ -30,12 +30,16 @@ struct DiscreteGradient {
         .not_on_lattice = "an implicit step is no bijection of the lattice",
         .describe = [](std::size_t, const Texts& given) { return hamflow::DiscreteGradient{read(given)}.info(); },
         .needs =
-            [](std::size_t) { return "a twice differentiable H without an explicit t, whose formula can be recorded"; },
+            [](std::size_t) {
+              return "a twice differentiable H without explicit t, as a formula that can be recorded";
+            },
         .advice =
             [](std::size_t) {
               return MethodAdvice{
-                  .take = "the energy has to be exact, and H varies so much along a step that cg(1) needs many points",
-                  .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do for H = T(p) + V(q): verlet"};
+                  .take = "the energy must be exact, and H varies so much along a step that cg(1) needs many points",
+                  .avoid =
+                      "a higher order is needed: cg(2), cg(3); many cheap steps are enough for H = T(p) + V(q): "
+                      "verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

@@ -22,16 +22,16 @@ struct Dop853 {
       info.name = canonical_name(info.name, options(), given);
       return info;
     };
-    family.meaning = "an explicit Runge-Kutta method of order 8 with sub-steps of its own, for reference solutions";
+    family.meaning = "an explicit Runge-Kutta method of order 8 with adaptive sub-steps, for reference solutions";
     family.advice = [](std::size_t) {
-      return MethodAdvice{.take = "a reference is wanted over few periods, of any differentiable H",
+      return MethodAdvice{.take = "you need a reference solution over a few periods, for any differentiable H",
                           .avoid =
-                              "the run is long, its energy drifts: kahan-li8, rkn8-s19, cg; digits beyond 16 are "
-                              "wanted: taylor"};
+                              "the run is long, because its energy drifts: kahan-li8, rkn8-s19, cg; more than 16 "
+                              "digits are needed: taylor"};
     };
     family.needs = [](std::size_t) { return "a differentiable H"; };
     family.digits = [](std::size_t) { return dop853::digits; };
-    family.hint = [](const Texts&, const UsableAdvice&) { return "try a smaller dt, a larger method.tolerance"; };
+    family.hint = [](const Texts&, const UsableAdvice&) { return "try a smaller dt or a larger method.tolerance"; };
     family.measurable = [](const Texts& given) {
       Texts all = given;
       all[options()[1].info.name] = "fixed";

@@ -23,7 +23,8 @@ struct Eg {
   static MethodFamily declared() {
     return {
         .name = "eg",
-        .meaning = "enhanced elements that keep energy, linear and angular momentum of bodies in Cartesian coordinates",
+        .meaning =
+            "enhanced elements that conserve energy, linear and angular momentum of bodies in Cartesian coordinates",
         .methods = {"eg"},
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
@@ -33,19 +34,18 @@ struct Eg {
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs =
             [](std::size_t) {
-              return "an H of bodies whose forces act along the lines between them or to a centre and depend on the "
-                     "distance alone, one of n-body, solar-system, gas without a container, or central-force with a "
-                     "named potential and Cartesian coordinates";
+              return "an H of bodies whose forces act along the lines between them or to a centre and depend only on "
+                     "the distance (n-body, solar-system, gas without a container, central-force with a named "
+                     "potential and Cartesian coordinates)";
             },
         .advice =
             [](std::size_t) {
               return MethodAdvice{.take =
-                                      "energy and angular momentum have both to be exact, for bodies, a gas without a "
-                                      "container or a central "
-                                      "force in Cartesian coordinates",
+                                      "both energy and angular momentum must be exact, for bodies, a gas without a "
+                                      "container or a central force in Cartesian coordinates",
                                   .avoid =
-                                      "H has no such forces: cg; bits have to come back (lattice), or many cheap steps "
-                                      "do: kahan-li8, rkn8-s19"};
+                                      "H has no such forces: cg; the run must reverse bit for bit (lattice), or many "
+                                      "cheap steps are enough: kahan-li8, rkn8-s19"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

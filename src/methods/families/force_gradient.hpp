@@ -16,7 +16,7 @@ struct ForceGradient {
     family.describe = [](std::size_t method, const Texts&) { return describe(*force_gradient_tables()[method]); };
     family.needs = [](std::size_t) { return needs_separable(true) + ", V twice differentiable"; };
     family.advice = [](std::size_t method) {
-      return advice_of({.take = "V'' costs little beside V': it buys order 4 without a step backwards"},
+      return advice_of({.take = "V'' costs little compared with V': it gives order 4 without negative sub-steps"},
                        describe(*force_gradient_tables()[method]), true);
     };
     family.digits = [](std::size_t method) {

@@ -35,8 +35,8 @@ struct Gauss {
         .advice =
             [](std::size_t) {
               return MethodAdvice{
-                  .take = "H is not T(p) + V(q), the map has to be symplectic, and the order high",
-                  .avoid = "H = T(p) + V(q) and forces are cheap: kahan-li8; the energy has to be exact: cg"};
+                  .take = "H is not T(p) + V(q), the map must be symplectic, and the order high",
+                  .avoid = "H = T(p) + V(q) and forces are cheap: kahan-li8; the energy must be exact: cg"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

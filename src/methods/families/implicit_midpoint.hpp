@@ -34,8 +34,8 @@ struct ImplicitMidpoint {
         .advice =
             [](std::size_t) {
               return MethodAdvice{
-                  .take = "H is not T(p) + V(q) and the map has to be symplectic, order 2",
-                  .avoid = "the energy has to be exact: cg; a higher order is wanted: gauss; H = T(p) + V(q): verlet"};
+                  .take = "H is not T(p) + V(q), the map must be symplectic, and order 2 is enough",
+                  .avoid = "the energy must be exact: cg; a higher order is needed: gauss; H = T(p) + V(q): verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

@@ -23,21 +23,20 @@ struct ItohAbe {
     return {
         .name = "itoh-abe",
         .meaning =
-            "the coordinate increments of Itoh and Abe: conserves any H, made of its values, solved with its "
-            "derivatives, order 1",
+            "the coordinate increments of Itoh and Abe: conserves any H, uses only values of H (and derivatives to "
+            "solve), order 1",
         .methods = {"itoh-abe"},
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice",
         .describe = [](std::size_t, const Texts& given) { return hamflow::ItohAbe{read(given)}.info(); },
-        .needs = [](std::size_t) { return "a twice differentiable H whose formula can be recorded"; },
+        .needs = [](std::size_t) { return "a twice differentiable H as a formula that can be recorded"; },
         .advice =
             [](std::size_t) {
               return MethodAdvice{
-                  .take = "a map that conserves the energy and is made of values of H alone is to be compared",
-                  .avoid =
-                      "the solution has to be right or the way back to be found: cg, of order 2 and more, symmetric"};
+                  .take = "you want to compare with an energy-conserving map that uses only values of H",
+                  .avoid = "the solution must be accurate or reversible: cg, symmetric and of order 2 or more"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

@@ -13,7 +13,7 @@ struct Lobatto {
   static const BoundOptions<LobattoOptions>& options() {
     static const BoundOptions<LobattoOptions> all = [] {
       BoundOptions<LobattoOptions> list{
-          stages_option<LobattoOptions>("of the pair; the order is 2 stages - 2", Range::whole_from(2, 10))};
+          stages_option<LobattoOptions>("stages of the pair; the order is 2 stages - 2", Range::whole_from(2, 10))};
       add_newton_options(list);
       return list;
     }();
@@ -38,9 +38,9 @@ struct Lobatto {
             [](std::size_t) {
               return MethodAdvice{
                   .take =
-                      "H is not T(p) + V(q), and what verlet is for others is wanted, at any even order: with two "
-                      "stages the step is verlet where H is T(p) + V(q)",
-                  .avoid = "the order has to be high for few stages: gauss; the energy has to be exact: cg"};
+                      "H is not T(p) + V(q), and you need a generalisation of verlet of any even order (two stages are "
+                      "verlet if H = T(p) + V(q))",
+                  .avoid = "a high order with few stages is needed: gauss; the energy must be exact: cg"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

@@ -22,23 +22,23 @@ struct Rattle {
   static MethodFamily declared() {
     return {
         .name = "rattle",
-        .meaning = "steps on the manifold of constraints g(q) = 0: residuals at rounding, symplectic",
+        .meaning = "symplectic steps on the manifold of constraints g(q) = 0, with residuals at rounding level",
         .methods = {"rattle", "rattle4"},
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice =
-            "an implicit step is no bijection of the lattice, and the splitting methods, which are, take no "
-            "constraints; use another arithmetic, or generalised coordinates where H is T(p) + V(q) in them",
+            "an implicit step is not a bijection of the lattice, and splitting methods do not support constraints; use "
+            "another arithmetic, or generalised coordinates if H is T(p) + V(q) in them",
         .describe = [](std::size_t method, const Texts& given) { return hamflow::describe(of(method, read(given))); },
         .needs = [](std::size_t) { return "constraints g(q) = 0 and H = p^T M^-1 p/2 + V(q)"; },
         .advice =
             [](std::size_t method) {
-              return MethodAdvice{.take = std::string("coordinates are bound by constraints, and ") +
-                                          (method == 0 ? "order 2 does" : "order 4 is wanted"),
+              return MethodAdvice{.take = std::string("coordinates are subject to constraints, and ") +
+                                          (method == 0 ? "order 2 is enough" : "order 4 is needed"),
                                   .avoid =
-                                      "there are coordinates without constraints, angles say: cg, gauss, or verlet "
-                                      "where H is T(p) + V(q)"};
+                                      "coordinates without constraints exist, such as angles: cg, gauss, or verlet if "
+                                      "H is T(p) + V(q)"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

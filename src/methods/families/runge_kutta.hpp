@@ -12,10 +12,9 @@ struct RungeKutta {
   static MethodFamily declared() {
     MethodFamily family{
         .name = "runge-kutta",
-        .meaning = "explicit Runge-Kutta methods with fixed steps, to compare with; their energy drifts",
+        .meaning = "explicit Runge-Kutta methods with fixed steps, for comparison; their energy drifts",
         .not_on_lattice =
-            "an explicit Runge-Kutta step is no bijection of the lattice, so nothing would "
-            "come back exactly"};
+            "an explicit Runge-Kutta step is not a bijection of the lattice, so it could not be reversed exactly"};
 #define HAMFLOW_DECLARE_TABLEAU(table) family.methods.emplace_back(tableaus::table.name);
     HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_DECLARE_TABLEAU)
 #undef HAMFLOW_DECLARE_TABLEAU
@@ -28,10 +27,10 @@ struct RungeKutta {
       return all[method];
     };
     family.advice = [](std::size_t) -> MethodAdvice {
-      return {.take = "the point is what a method that is not symplectic does, or the run is a fraction of a period",
+      return {.take = "you want to see what a method that is not symplectic does, or the run is a fraction of a period",
               .avoid =
-                  "the run is long, its energy drifts: verlet, stv4 for H = T(p) + V(q), cg for any H; for a "
-                  "reference: taylor, dop853"};
+                  "the run is long, because its energy drifts: verlet, stv4 for H = T(p) + V(q), cg for any H; you "
+                  "need a reference: taylor, dop853"};
     };
     family.needs = [](std::size_t) { return "a differentiable H"; };
     return family;

@@ -11,7 +11,7 @@ struct Splitting {
   static MethodFamily declared() {
     MethodFamily family{.name = "splitting",
                         .meaning =
-                            "splittings with coefficients of their own, for H = T(p) + V(q); some need T "
+                            "other splittings, for H = T(p) + V(q); some need T "
                             "quadratic with constant mass matrix"};
     for (const SplittingTable* table : splitting_tables()) family.methods.emplace_back(table->name);
     family.describe = [](std::size_t method, const Texts&) { return describe(*splitting_tables()[method]); };

@@ -13,7 +13,7 @@ struct Taylor {
     static const auto all = [] {
       BoundOptions<AdaptiveOptions> list = adaptive_options(2);
       list.insert(list.begin(), bind_number({.name = "order",
-                                             .meaning = "of the series",
+                                             .meaning = "order of the series",
                                              .range = Range::whole_from(2, 200),
                                              .unset = "the cheapest for the tolerance",
                                              .example = "20",
@@ -33,21 +33,21 @@ struct Taylor {
       info.name = canonical_name(info.name, options(), given);
       return info;
     };
-    family.counts_forces = false;  // a sweep over a tape of series is no evaluation of a force
-    family.meaning = "Taylor series with sub-steps of its own, for reference solutions in any number of digits";
+    family.counts_forces = false;  // a pass over the tape of series is not a force evaluation
+    family.meaning = "Taylor series with adaptive sub-steps, for reference solutions in any number of digits";
     family.advice = [](std::size_t) {
       return MethodAdvice{
           .purpose = "reference solutions, in any number of digits (arithmetic quad, mp(d)); any analytic H",
-          .take = "the solution itself has to be right to many digits, over a time that is not too long",
+          .take = "the solution itself must be accurate to many digits, over a limited time",
           .avoid =
-              "the run is long, nothing is conserved by construction: kahan-li8, rkn8-s19 for H = T(p) + V(q), cg "
-              "for any H"};
+              "the run is long, because nothing is conserved by construction: kahan-li8, rkn8-s19 for H = T(p) + V(q), "
+              "cg for any H"};
     };
     family.needs = [](std::size_t) { return "an H whose derivatives can be recorded"; };
     family.hint = [](const Texts&, const UsableAdvice&) {
       return "try a smaller dt, a larger method.tolerance or another method.order";
     };
-    // Of a series of order 15, the default, the error cannot be halved four times in any arithmetic at hand.
+    // With order 15, the default, the error cannot be halved four times in any available arithmetic.
     family.measurable = [](const Texts& given) {
       Texts all = given;
       all.try_emplace(options()[0].info.name, "8");

@@ -1,9 +1,10 @@
-// Checkpoints: what decides the steps to come, as bytes. A class lists its fields once, for writing and for reading:
+// Checkpoints: the state that determines the following steps, as bytes. A class lists its fields once, for writing and
+// reading:
 //     template <class Archive> void archive(Archive& ar) { ar(kick_, factor_, count_); }
 // Kinds of fields: numbers, enumerations, strings, std::vector, std::array, C arrays, std::optional, Vector of either
-// kind, classes with archive(), and empty classes, which write nothing. All of it is cold: compiled for size.
-// What follows from a field, e.g. a pointer into a table, is set again where `Archive::reading` is true. Bytes are the
-// machine's own: a checkpoint is not an exchange format. Equal values give equal bytes.
+// kind, classes with archive(), and empty classes, which write nothing. All functions are cold: compiled for size. Data
+// that follow from a field, e.g. a pointer into a table, are set again if `Archive::reading` is true. Bytes are in the
+// order of the machine: a checkpoint is not an exchange format. Equal values give equal bytes.
 #pragma once
 
 #include <array>
@@ -33,7 +34,7 @@ template <class T>
 struct ArchivedNumber;
 
 namespace detail {
-/// The number of bytes that carry the value: the 80-bit long double has 6 more, of any content.
+/// The number of bytes that hold the value. The 80-bit long double has 6 more bytes, with undefined content.
 template <class T>
 constexpr std::size_t significant_bytes() {
   return std::is_same_v<T, long double> && std::numeric_limits<long double>::digits == 64 ? 10 : sizeof(T);
@@ -90,7 +91,7 @@ class Writer {
   template <class T>
   [[gnu::cold]] void put(const T& x) {
     if constexpr (detail::HasArchive<T, Writer>) {
-      const_cast<T&>(x).archive(*this);  // NOLINT: one list of fields for both directions; a Writer changes none
+      const_cast<T&>(x).archive(*this);  // NOLINT: one list of fields serves both directions; a Writer changes no field
     } else if constexpr (requires { ArchivedNumber<T>::write(*this, x); }) {
       ArchivedNumber<T>::write(*this, x);
     } else if constexpr (detail::PlainNumber<T>) {
@@ -113,14 +114,14 @@ class Writer {
       for (const auto& entry : x) put(entry);
     } else {
       static_assert(std::is_empty_v<T>,
-                    "hamflow: this type has fields and no archive(); list them, see detail/core/archive.hpp");
+                    "hamflow: this type has fields but no archive(); list them, see detail/core/archive.hpp");
     }
   }
 
   std::vector<std::byte> bytes_;
 };
 
-/// Turns bytes back into fields. @throws Error where they are too short or do not fit the type of the field
+/// Turns bytes back into fields. @throws Error if there are too few bytes or they do not fit the type of the field
 class Reader {
  public:
   static constexpr bool reading = true;
@@ -132,21 +133,21 @@ class Reader {
     (get(fields), ...);
   }
   [[gnu::cold, gnu::noinline]] void raw(void* to, std::size_t size) {
-    if (size > bytes_.size()) throw Error("saved bytes end too early");
+    if (size > bytes_.size()) throw Error("the saved bytes end too early");
     if (size > 0) std::memcpy(to, bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
   }
   std::size_t left() const { return bytes_.size(); }
-  /// @throws Error when bytes are left over
+  /// @throws Error if bytes are left over
   void finish() const {
-    if (!bytes_.empty()) throw Error("saved bytes are longer than expected");
+    if (!bytes_.empty()) throw Error("there are more saved bytes than expected");
   }
 
  private:
   [[gnu::cold, gnu::noinline]] std::size_t count() {
     std::uint64_t size = 0;
     get(size);
-    if (size > left()) throw Error("saved bytes end too early");  // every entry takes at least one byte
+    if (size > left()) throw Error("the saved bytes end too early");  // an entry has at least one byte
     return static_cast<std::size_t>(size);
   }
   template <class T>
@@ -158,7 +159,7 @@ class Reader {
     } else if constexpr (std::is_same_v<T, bool>) {
       unsigned char byte = 0;
       get(byte);
-      if (byte > 1) throw Error("saved bytes hold an invalid truth value");
+      if (byte > 1) throw Error("the saved bytes hold an invalid truth value");
       x = byte == 1;
     } else if constexpr (detail::PlainNumber<T>) {
       raw(&x, detail::significant_bytes<T>());
@@ -172,7 +173,7 @@ class Reader {
       if (is_set) get(x.emplace());
     } else if constexpr (detail::IsDynamicMatrix<T>::value) {
       const std::size_t size = count();
-      if (size > 0 && size > left() / size) throw Error("saved bytes end too early");
+      if (size > 0 && size > left() / size) throw Error("the saved bytes end too early");
       x = T(size);
       for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t j = 0; j < size; ++j) get(x[i][j]);
@@ -180,7 +181,7 @@ class Reader {
     } else if constexpr (detail::IsVector<T>::value) {
       const std::size_t size = count();
       if constexpr (requires { T::size(); }) {
-        if (size != T::size()) throw Error("saved bytes hold a vector of another size");
+        if (size != T::size()) throw Error("the saved bytes hold a vector of another size");
       } else {
         x = T(size);
       }
@@ -192,14 +193,14 @@ class Reader {
       for (auto& entry : x) get(entry);
     } else {
       static_assert(std::is_empty_v<T>,
-                    "hamflow: this type has fields and no archive(); list them, see detail/core/archive.hpp");
+                    "hamflow: this type has fields but no archive(); list them, see detail/core/archive.hpp");
     }
   }
 
   std::span<const std::byte> bytes_;
 };
 
-/// Numbers without a fixed size, as text that holds them exactly: exact_text(x) and from_exact_text(text, x)
+/// Archives numbers without a fixed size as text that holds them exactly. exact_text(x) and from_exact_text(text, x)
 /// are found by argument-dependent look-up.
 template <class T>
 struct ArchivedText {

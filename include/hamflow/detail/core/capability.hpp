@@ -1,4 +1,4 @@
-// What a problem offers to methods: the concepts of core/concepts.hpp as flags.
+// The capabilities of a problem: the concepts of core/concepts.hpp as flags.
 #pragma once
 
 #include "hamflow/core/constraints.hpp"
@@ -7,7 +7,7 @@
 namespace hamflow {
 
 enum class Capability : unsigned {
-  smooth = 0,             // gradient and Hessian of H, which every problem of the catalogue has
+  smooth = 0,             // gradient and Hessian of H; every problem of the catalogue has them
   separable = 1,          // H = T(p) + V(q)
   quadratic_kinetic = 2,  // T quadratic with constant mass matrix
   cyclic = 4,             // the last coordinate is cyclic
@@ -18,7 +18,7 @@ enum class Capability : unsigned {
 constexpr Capability operator|(Capability a, Capability b) {
   return static_cast<Capability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
-/// Whether all flags of `wanted` are among those offered.
+/// Whether `offered` has all flags of `wanted`.
 constexpr bool includes(Capability offered, Capability wanted) { return (offered | wanted) == offered; }
 
 template <class P>

@@ -1,7 +1,7 @@
-// Which pairs i < j can be within a distance of each other, by the cell lists with skin of the bulk forces: for loops
-// over pairs in any arithmetic that decide for themselves what is in range. What they leave out is beyond the distance,
-// and contributes exactly nothing; what remains comes in the order of a loop over all pairs. Sums of numbers have the
-// bits of that loop, hence neither skin nor age of lists nor threads change any.
+// Neighbour lists for loops over pairs in any arithmetic: pairs i < j that can be within a distance of each other,
+// found by the cell lists with skin of the bulk forces. The loop itself decides which pairs are in range. A pair that
+// is left out is beyond the distance and contributes exactly 0; the others come in the order of a loop over all pairs.
+// Sums therefore have the bits of that loop, whatever the skin, the age of the lists and the number of threads.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace bulk {
 class Neighbours;
 }
 
-/// The partners j > i of a particle i, ascending: those of a list, or all.
+/// The partners j > i of a particle i in ascending order: those of a neighbour list, or all.
 class PartnerRow {
  public:
   PartnerRow(std::size_t i, std::size_t particles) : first_(i + 1), size_(particles - 1 - i) {}
@@ -33,7 +33,7 @@ class PartnerRow {
   std::size_t size_;
 };
 
-/// What NearPairs::Turn is, where no pair is left out.
+/// Takes the place of NearPairs::Turn if no pair is left out.
 struct AllPairs {
   struct Row {
     std::size_t first;
@@ -47,16 +47,16 @@ struct AllPairs {
 
 class NearPairs {
  public:
-  /// In the lengths of the coordinates.
+  /// The range and the box, in the units of the coordinates.
   struct Reach {
     std::size_t space = 2;
     std::size_t particles = 0;
     double radius = 0;
     double skin = 0;
-    std::array<double, 3> edges{};    // of the periodic box, whose middle is the origin; 0: not periodic
+    std::array<double, 3> edges{};    // of the periodic box, centred at the origin; 0: not periodic
     bool rebuild_every_time = false;  // for tests
   };
-  /// The pairs at the positions that were asked for, while it lives; others wait for it.
+  /// Exclusive access to the pairs at the given positions; other callers wait until it is destroyed.
   class Turn {
    public:
     explicit Turn(std::size_t particles) : particles_(particles) {}
@@ -64,7 +64,7 @@ class NearPairs {
       if (pairs_ == nullptr || pairs_->all_) return {i, particles_};
       return {pairs_->partners_.data() + pairs_->begins_[i], pairs_->counts_[i]};
     }
-    /// Another one when rows have become longer or shorter.
+    /// Changes when the lists change.
     std::uint64_t version() const { return pairs_ == nullptr || pairs_->all_ ? 0 : pairs_->lists_; }
 
    private:
@@ -77,8 +77,8 @@ class NearPairs {
 
   explicit NearPairs(const Reach& reach) : reach_(reach) {}
 
-  /// @param position the k-th coordinate, a number that becomes a double   @param team that makes lists; null: the
-  /// caller
+  /// @param position the k-th coordinate, convertible to double @param team threads that make lists; null: the caller's
+  /// thread
   template <class Position>
   Turn at(const Position& position, ThreadTeam* team = nullptr) {
     Turn turn(*this);
@@ -87,7 +87,7 @@ class NearPairs {
     find(team);
     return turn;
   }
-  /// Lists made since the beginning.
+  /// The number of lists made since construction.
   std::uint64_t lists() const { return lists_; }
 
  private:
@@ -100,7 +100,7 @@ class NearPairs {
   std::size_t workers_ = 0;
   std::vector<double> positions_;
   bool all_ = true;
-  std::vector<std::size_t> begins_;  // of each particle's row
+  std::vector<std::size_t> begins_;  // where the row of each particle begins
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> partners_;
   std::uint64_t lists_ = 0;

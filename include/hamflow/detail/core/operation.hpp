@@ -1,5 +1,6 @@
-// **Operations**: one list for all that is made of them. A formula is read into operations, differentiated, recorded,
-// translated into machine code, interpreted, and each of these has a rule for every operation, or the rule of its row.
+// **Operations** of formulas, recordings and programs. Formulas are parsed into operations, differentiated, recorded,
+// translated into machine code and interpreted; each of these has a rule for every operation, or uses the row of the
+// operation.
 //
 // A function of one number that formulas can name is one row of HAMFLOW_FUNCTIONS, and a function of that name for
 // every number type. Its row has
@@ -7,9 +8,8 @@
 //   symmetry  odd: f(-x) = -f(x); even: f(-x) = f(x); neither
 //   rule      the derivative: times(slope) multiplies that of x by the slope, over(slope) divides by it. It is written
 //             with x, y = f(x) and one, and may call other functions
-//   series    known: detail/numerics/taylor_series.hpp and detail/core/tape.hpp have its Taylor coefficients; unknown:
-//   it has none, and
-//             methods that need them refuse it
+//   series    known: detail/numerics/taylor_series.hpp and detail/core/tape.hpp compute its Taylor coefficients;
+//             unknown: they do not, and methods that need them refuse it
 #pragma once
 
 #include <cstdint>
@@ -36,9 +36,9 @@ namespace hamflow {
 
 enum class Operation : std::uint8_t {
   // Of formulas and recordings.
-  number,  // a decimal text; of a recording a constant
+  number,  // a decimal text; in a recording a constant
   pi,
-  symbol,  // a value that is given: of a formula by a name, of a recording an input
+  symbol,  // a given value: in a formula by name, in a recording an input
   negate,
   add,
   subtract,
@@ -51,27 +51,26 @@ enum class Operation : std::uint8_t {
   HAMFLOW_FUNCTIONS(HAMFLOW_ENUMERATOR)
 #undef HAMFLOW_ENUMERATOR
       abs,
-  // Of recordings and programs.
+  // In recordings and programs only.
   larger,  // a < b ? b : a
   choose,  // a > 0 ? b : c
-  // Of recordings, with a constant c.
+  // In recordings only, with a constant c.
   add_constant,     // a + c
   scale,            // a c
   divide_constant,  // a/c
   square,           // a^2
   invert,           // c/a
   power_constant,   // a^c
-  // Of machine code: the sine of a number and, directly behind it, its cosine, by one call.
+  // In machine code only: the sine of a number and, directly after it, its cosine, by one call.
   sine_of_both,
   cosine_of_both,
-  // Of lanes that are one step together (src/numerics/program_lanes.hpp): a of lane number b, in every lane. a is
-  // carried
-  // and stays as it is, b a constant.
+  // In lanes that form one step together (src/numerics/program_lanes.hpp): broadcasts a from lane number b. a is
+  // carried over between lanes unchanged; b is a constant.
   of_lane
 };
 
 constexpr bool is_leaf(Operation operation) { return operation <= Operation::symbol; }
-/// Of those that formulas have.
+/// Whether an operation of formulas has two operands.
 constexpr bool takes_two(Operation operation) { return operation >= Operation::add && operation <= Operation::atan2; }
 
 /// Whether it is one of HAMFLOW_FUNCTIONS.
@@ -87,7 +86,7 @@ constexpr bool is_listed_function(Operation operation) {
 }
 
 enum class Symmetry : std::uint8_t { neither, odd, even };
-/// Of the functions of one number.
+/// The symmetry of a function of one number.
 constexpr Symmetry symmetry_of(Operation operation) {
   switch (operation) {
 #define HAMFLOW_CASE(name, symmetry, rule, series) \
@@ -108,16 +107,16 @@ struct NamedFunction {
 };
 /// The functions that formulas can name.
 std::span<const NamedFunction> named_functions();
-/// Null where no function has that name.
+/// Null if no function has that name.
 const Operation* find_function(std::string_view name);
 
-/// How a derivative follows from that of the argument: multiplied or divided by a number.
+/// The factor of the chain rule: the derivative of the argument is multiplied or divided by a number.
 template <class Number>
 struct DerivativeRule {
   bool divides;
   Number by;
 };
-/// The rule of a listed function y = f(x), in numbers that know + - * and the functions.
+/// The chain rule of a listed function y = f(x), for number types with + - * and the functions.
 /// @param one the number 1
 template <class Number>
 DerivativeRule<Number> derivative_rule(Operation function, const Number& x, const Number& y, const Number& one) {
@@ -134,7 +133,7 @@ DerivativeRule<Number> derivative_rule(Operation function, const Number& x, cons
   }
 }
 
-/// The value of an operation of formulas in any number type. @param y ignored where there is no second operand
+/// The value of an operation of formulas in any number type. @param y ignored if there is no second operand
 template <class S>
 S applied(Operation operation, const S& x, const S& y) {
   switch (operation) {

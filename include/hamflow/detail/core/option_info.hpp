@@ -1,5 +1,5 @@
-// An option, declared once. From its declaration come the reader of scenarios with its messages, `show`, `list` and
-// `new`, the options of a method on the command line and in the shell, what --resume may change, and docs/reference.md.
+// The declaration of an option. The reader of scenarios with its messages, `show`, `list` and `new`, the options of a
+// method on the command line and in the shell, the keys that --resume may change, and docs/reference.md use it.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ using Texts = std::map<std::string, std::string>;
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool open = false;   // least and most themselves are excluded
+  bool open = false;   // least and most are excluded
   bool whole = false;  // whole numbers only; 1e6 is one
   bool not_zero = false;
 
@@ -30,7 +30,7 @@ struct Range {
   static constexpr Range whole_from(double least, double most) { return {least, most, false, true}; }
   static constexpr Range between(double least, double most) { return {least, most, true, false}; }
 
-  /// False for NaN and for what is infinite.
+  /// False for NaN and infinities.
   bool contains(long double x) const;
 };
 inline constexpr Range Range::any{};
@@ -43,54 +43,53 @@ enum class OptionType {
   list,            // numbers
   number_or_list,  //
   word,            // one of `words`
-  word_list,       // several of them; a single one counts as a list of one
+  word_list,       // a list of some of `words`; a single word counts as a list of one
   yes_no,          // true, false
-  text,            // any that is not empty
+  text,            // any non-empty text
   table            // with the keys `keys`
 };
 
 struct OptionInfo {
   std::string name;
-  std::string default_value{};  // a number, "[...]" or a word; empty: without the option, what `unset` says holds
+  std::string default_value{};  // a number, "[...]" or a word; empty: `unset` says what holds without the option
   std::string meaning{};
   Range range{};  // of each number
   OptionType type = OptionType::number;
-  std::size_t length = 0;  // of a list; 0: any from 1
+  std::size_t length = 0;  // of a list; 0: any length from 1
   bool required = false;
-  std::vector<std::string>
-      words{};                     // the closed list of words; beside numbers those allowed in their place, e.g. "auto"
-  std::string unset{};             // what holds where there is no default, e.g. "its rounding level"
-  std::string unit{};              // e.g. "1/time"; empty: that of the input, or none
-  std::string condition{};         // on what it depends, e.g. "with arithmetic = \"lattice\""
-  std::string example{};           // a value for `new` where there is no default
-  int position = 0;                // from 1: it may be given by position, as in cg(2,6); 0: by name only
-  bool beyond_double = false;      // it may be smaller or larger than a double can be
-  bool free_on_resume = false;     // it decides no bit of what is written: --resume takes another value
-  std::vector<OptionInfo> keys{};  // of a table
+  std::vector<std::string> words{};  // the allowed words; for numbers those allowed instead of a number, e.g. "auto"
+  std::string unset{};               // what holds without a default, e.g. "its rounding level"
+  std::string unit{};                // e.g. "1/time"; empty: the unit of the input, or none
+  std::string condition{};           // when it applies, e.g. "with arithmetic = \"lattice\""
+  std::string example{};             // a value for `new` if there is no default
+  int position = 0;                  // from 1: can be given by position, as in cg(2,6); 0: by name only
+  bool beyond_double = false;        // values outside the range of double are allowed
+  bool free_on_resume = false;       // does not change a bit of the results: --resume accepts another value
+  std::vector<OptionInfo> keys{};    // of a table
 };
 
-/// What is allowed, for messages: "a whole number from 1 to 1000", "a positive number, or \"auto\"", "error, halve".
+/// The allowed values, for messages: "a whole number from 1 to 1000", "a positive number, or \"auto\"", "error, halve".
 std::string allowed_text(const OptionInfo& option);
-/// The range alone: "positive", "from 1 to 64", "between 0 and 1", "other than 0"; empty where all numbers are allowed.
+/// The range alone: "positive", "from 1 to 64", "between 0 and 1", "other than 0"; empty if all numbers are allowed.
 std::string range_text(const Range& range);
-/// What is wrong with a text given for an option: "found '...'; allowed ...; did you mean ...?". Empty if nothing is.
-/// What is no number has the message of the formula reader, which says where the text goes wrong.
+/// The error of a text given for an option: "found '...'; allowed ...; did you mean ...?"; empty if the text is
+/// accepted. For a malformed number it is the message of the formula reader, which has the column of the error.
 std::string refused_value(const OptionInfo& option, const std::string& text);
 /// The default, or what holds without the option, in square brackets as in tables: "[newton]", "[unset: ...]".
 std::string default_text(const OptionInfo& option);
-/// The text as a TOML value: quoted where it is neither a number nor true or false.
+/// The text as a TOML value: quoted unless it is a number, true or false.
 std::string toml_text(const OptionInfo& option, const std::string& text);
 
-/// The option of that name; null where there is none.
+/// The option of that name; null if there is none.
 const OptionInfo* find_option(std::span<const OptionInfo> options, const std::string& name);
 std::vector<std::string> option_names(const std::vector<OptionInfo>& options);
 
-/// The value of a text that refused_value() has nothing against.
+/// The value of a text that refused_value() accepts.
 double number_value(const std::string& text);
-/// The same as long double where a double would be 0, subnormal or infinite.
+/// The same value; as long double if a double would be 0, subnormal or infinite.
 long double wide_number_value(const std::string& text);
 
-/// An option that sets members of a struct of options. The text is one that refused_value() has nothing against.
+/// An option that sets members of a struct of options, from a text that refused_value() accepts.
 template <class Owner>
 struct BoundOption {
   OptionInfo info;
@@ -107,7 +106,7 @@ std::vector<OptionInfo> declarations_of(const BoundOptions<Owner>& options) {
   return all;
 }
 
-/// A struct of options from the texts given; what is not given keeps the value of the struct.
+/// A struct of options from the given texts; other members keep their values.
 template <class Owner>
 Owner read_options(const BoundOptions<Owner>& options, const Texts& given, Owner into = {}) {
   for (const auto& option : options) {
@@ -116,8 +115,8 @@ Owner read_options(const BoundOptions<Owner>& options, const Texts& given, Owner
   return into;
 }
 
-/// Binds a number to a member of type int, double, long double or std::optional<double>; words stand for the values
-/// beside them.
+/// Binds a number to a member of type int, double, long double or std::optional<double>; each word stands for the value
+/// next to it.
 template <class Owner, class T>
 BoundOption<Owner> bind_number(OptionInfo info, T Owner::*member, std::vector<std::pair<std::string, T>> words = {}) {
   for (const auto& word : words) info.words.push_back(word.first);
@@ -138,7 +137,7 @@ BoundOption<Owner> bind_number(OptionInfo info, T Owner::*member, std::vector<st
           }};
 }
 
-/// Binds a closed list of words to a member; each word stands for the value beside it.
+/// Binds a closed list of words to a member; each word stands for the value next to it.
 template <class Owner, class T>
 BoundOption<Owner> bind_word(OptionInfo info, T Owner::*member, std::vector<std::pair<std::string, T>> words) {
   info.type = OptionType::word;

@@ -1,5 +1,5 @@
-// Memory for short-lived vectors: blocks that are returned are kept, by size, for the next request of that size. One
-// pool per thread, so that nothing is locked.
+// A memory pool for short-lived vectors. Returned blocks are kept, by size, for the next request of that size. Each
+// thread has its own pool, so that there are no locks.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// Blocks of 2^k bytes, k = 4 .. 47. A block may be returned on another thread than the one that took it.
+/// Blocks of 2^k bytes, k = 4 .. 47. A block may be returned on another thread than the one that requested it.
 class Pool {
  public:
   static void* take(std::size_t bytes) {
@@ -19,7 +19,7 @@ class Pool {
     return block;
   }
   static void give(void* memory, std::size_t bytes) {
-    if (phase_ != Phase::alive && !begins()) {  // the thread is about to end, and so has its pool
+    if (phase_ != Phase::alive && !begins()) {  // the thread is ending and its pool is gone
       ::operator delete(memory);
       return;
     }
@@ -31,7 +31,8 @@ class Pool {
   struct Block {
     Block* next;
   };
-  /// What ends with the thread. Apart from the blocks, so that these are looked at without asking whether it has begun.
+  /// Frees the blocks when the thread ends. It is separate from the blocks, so that access to them does not check
+  /// whether a thread-local object with a destructor has been constructed.
   struct End {
     ~End() {
       phase_ = Phase::gone;
@@ -45,7 +46,7 @@ class Pool {
     }
   };
   static constexpr std::size_t sizes = 48;
-  enum class Phase : char { unborn, alive, gone };
+  enum class Phase : char { not_begun, alive, gone };
 
   [[gnu::cold, gnu::noinline]] static bool begins() {
     if (phase_ == Phase::gone) return false;
@@ -57,7 +58,7 @@ class Pool {
     return static_cast<std::size_t>(std::bit_width((bytes < 16 ? 16 : bytes) - 1));
   }
 
-  static inline constinit thread_local Phase phase_ = Phase::unborn;
+  static inline constinit thread_local Phase phase_ = Phase::not_begun;
   static inline constinit thread_local Block* free_[sizes]{};
 };
 

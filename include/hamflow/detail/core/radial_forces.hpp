@@ -11,12 +11,12 @@ namespace hamflow {
 template <class R>
 struct RadialTerm {
   static constexpr std::size_t centre = static_cast<std::size_t>(-1);
-  std::size_t a = 0;       // the first coordinates of two bodies
-  std::size_t b = centre;  // or the origin
+  std::size_t a = 0;       // index of the first coordinate of one body
+  std::size_t b = centre;  // and of the other, or the centre
   R strength{};
 };
 
-/// phi and its derivatives by u.
+/// phi and its derivatives with respect to u.
 template <class S>
 struct RadialLaw {
   S value{};

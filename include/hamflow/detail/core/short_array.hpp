@@ -1,5 +1,5 @@
-// Numbers whose count is chosen when they are made. A few of them, as most systems have, stand in place: a temporary of
-// a step then costs no more than its numbers.
+// An array whose size is chosen at construction. A few numbers, as most systems have, are stored in place, so that a
+// temporary of a step needs no allocation.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace hamflow {
 
-/// A value. Its numbers do not stay where they are when it is moved.
+/// An array with value semantics. Moving it may move its numbers.
 template <class R>
 class ShortArray {
   static_assert(std::is_trivially_copyable_v<R> && std::is_trivially_destructible_v<R>);
@@ -30,7 +30,7 @@ class ShortArray {
   }
   ShortArray(ShortArray&& other) noexcept { take(other); }
   ShortArray& operator=(const ShortArray& other) {
-    if (this == &other) return *this;  // numbers are not copied onto themselves
+    if (this == &other) return *this;  // self-assignment
     if (size_ == other.size_) {
       std::copy_n(other.first_, size_, first_);
     } else {

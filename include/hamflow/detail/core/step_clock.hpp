@@ -1,4 +1,5 @@
-// Time is an integer number of steps: t = t0 + n h. Nobody writes t += h, and no step is shortened to hit an end.
+// Time is an integer number of steps: t = t0 + n h. It is never accumulated (t += h), and no step is shortened to hit
+// an end time.
 #pragma once
 
 #include <concepts>
@@ -12,14 +13,14 @@
 
 namespace hamflow {
 
-/// A time as an unevaluated sum: `whole` is the sum rounded, or next to it, `rest` what rounding has left.
+/// A time as an unevaluated sum: `whole` is the rounded sum, or a neighbour of it, `rest` its rounding error.
 template <class R>
 struct TimeWords {
   R whole{};
   R rest{};
 };
 
-/// start + n step of a whole number n.   [Dekker1971; the exact sum of two numbers: Knuth1997, 4.2.2]
+/// start + n step for a whole number n.   [Dekker1971; the exact sum of two numbers: Knuth1997, 4.2.2]
 template <class R>
 TimeWords<R> time_in_words(const R& start, const R& n, const R& step) {
   using Base = base_scalar<R>;
@@ -35,7 +36,7 @@ TimeWords<R> time_in_words(const R& start, const R& n, const R& step) {
     const R step1 = upper_half(step);
     const R step0 = step - step1;
     lost = ((n1 * step1 - product) + n1 * step0 + n0 * step1) + n0 * step0;
-  } else {  // n has the digits of a double, which leave room for those of another one
+  } else {  // n and step1 have the digits of a double: their product is exact in R
     const R step1(static_cast<double>(step));
     lost = (n * step1 - product) + n * R(step - step1);
   }
@@ -44,13 +45,13 @@ TimeWords<R> time_in_words(const R& start, const R& n, const R& step) {
   return {whole, ((start - (whole - part)) + (product - part)) + lost};
 }
 
-/// Of H(q, p, t) the last coordinates carry the time: the time since the step began, which moves with t' = 1, and the
-/// time at which the step began. A method knows none of this. Behind every step the clock of the run sets both, so that
-/// no rounding of a step is carried into the next one: the time of a stage is the sum of n h, in two words, and of what
-/// the stages before it have added within this step alone, rounded once.
+/// For H(q, p, t) the last coordinates hold the time: the time since the step began, with t' = 1, and the time at which
+/// the step began. Methods treat them like any coordinate. After every step the clock of the run sets both, so that no
+/// rounding error of the time is carried into the next step: the time of a stage is n h, in two words, plus the
+/// increments of earlier stages of the same step, rounded once.
 inline constexpr std::size_t clock_coordinates = 2;
 
-/// Of problems behind virtual calls, which know at run time whether their last coordinates carry the time.
+/// A problem behind virtual calls, which knows at run time whether its last coordinates hold the time.
 template <class P>
 concept MayHaveClock = requires(const P& problem) {
   { problem.has_clock() } -> std::same_as<bool>;
@@ -63,14 +64,14 @@ bool has_clock([[maybe_unused]] const P& problem) {
     return false;
   }
 }
-/// How many of the last coordinates carry the time: no error is measured by their size.
+/// The number of coordinates that hold the time. They do not enter the scale of errors.
 template <class P>
 std::size_t clocks_of(const P& problem) {
   return has_clock(problem) ? clock_coordinates : 0;
 }
 
-/// Sets them to the time `begin` and what has passed since then.
-/// @param passed in the numbers of the state
+/// Sets these coordinates to the time `begin` and the time passed since then.
+/// @param passed in the number type of the state
 template <class A, std::size_t N, class R>
 void set_clock(PhasePoint<A, N>& z, const TimeWords<R>& begin, const R& passed = R(0)) {
   const std::size_t n = z.q.size();
@@ -79,7 +80,7 @@ void set_clock(PhasePoint<A, N>& z, const TimeWords<R>& begin, const R& passed =
   z.p[n - 1] = z.arithmetic.momentum.store(R(0));
 }
 
-/// Counts equal steps of length h from t0. Reversing turns the direction, so that going back meets the same times.
+/// Counts equal steps of length h from t0. Reversing changes the direction, so that the way back has the same times.
 template <class R = double>
 class StepClock {
  public:
@@ -87,24 +88,24 @@ class StepClock {
   /// @param start time of step 0   @param step length h of a step, may be negative
   StepClock(R start, R step) : start_(start), step_(step) {}
 
-  R step() const { return step_; }  // forwards
+  R step() const { return step_; }  // in forward direction
   R step_length() const { return direction_ < 0 ? -step_ : step_; }
   /// t0 + n h, with one rounding in the product and one in the sum, whatever the number of steps taken.
   R time() const { return time_after(0); }
-  /// The time that so many steps from now will have.
+  /// The time after the given number of further steps.
   R time_after(std::int64_t steps) const { return start_ + static_cast<R>(position_ + direction_ * steps) * step_; }
-  /// The earlier end, in the order of the run forwards, of the step that follows so many steps from now. Going back,
-  /// the times of stages are counted from the same end as going forwards.
+  /// The earlier end (in forward direction) of the step that follows the given number of further steps. Forward and
+  /// backward steps count the times of stages from the same end.
   TimeWords<R> begin_after(std::int64_t steps) const {
     return time_in_words(start_, static_cast<R>(position_ + direction_ * steps - (direction_ < 0 ? 1 : 0)), step_);
   }
-  /// Where in that step it begins.
+  /// The time from that end at which the step begins.
   R passed() const { return direction_ < 0 ? step_ : R(0); }
   R start() const { return start_; }
-  /// Steps from the start of time, and the direction in which they are counted.
+  /// Steps between t0 and now; negative before t0.
   std::int64_t position() const { return position_; }
   std::int64_t direction() const { return direction_; }
-  /// Steps taken, in either direction.
+  /// The number of steps taken in both directions.
   std::int64_t steps_taken() const { return taken_; }
 
   void advance(std::int64_t steps) {

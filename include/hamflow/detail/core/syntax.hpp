@@ -1,5 +1,4 @@
-// A formula, or a number that people write as one, as it stands in the text: what belongs to what, before names have a
-// meaning.
+// The syntax tree of a formula, or of a number written as a formula, before names are resolved.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +11,8 @@
 
 namespace hamflow {
 
-/// One construct; `a`, `b`, `c` are others, by their places in Syntax::parts. An operand stands before what is made of
-/// it.
+/// A node of the syntax tree; `a`, `b`, `c` are indices of other nodes in Syntax::parts. Operands come before their
+/// operation.
 struct SyntaxPart {
   enum class Kind {
     number,
@@ -25,12 +24,12 @@ struct SyntaxPart {
   };
   Kind kind;
   Operation op = Operation::number;
-  std::string_view word{};  // of a number its digits
+  std::string_view word{};  // for a number its digits
   int a = -1;
   int b = -1;
   int c = -1;
-  std::size_t at = 0;     // of its operator or first character: errors point there
-  std::size_t begin = 0;  // [begin, end): all of it
+  std::size_t at = 0;     // position of its operator or first character, shown in errors
+  std::size_t begin = 0;  // [begin, end): the whole part of the text
   std::size_t end = 0;
 };
 
@@ -43,17 +42,17 @@ struct Syntax {
   std::string shown_part(const SyntaxPart& part) const;
   /// @throws Error always: the operand b of a division is 0
   [[noreturn]] void refuse_division_by_zero(const SyntaxPart& division) const;
-  /// @throws Error always: a value is infinite, or not a number
+  /// @throws Error always: a value is infinite or NaN
   [[noreturn]] void refuse_value(const SyntaxPart& part, bool infinite) const;
 };
 
-/// What a text may hold.
+/// What a text may contain.
 struct SyntaxRules {
   bool only_numbers = false;  // no names, let and sum
   std::size_t characters;
   std::size_t operations;
-  std::span<const std::string> names{};  // for proposals only
-  std::string_view what = "names";       // what the names are, in messages
+  std::span<const std::string> names{};  // known names, for proposals only
+  std::string_view what = "names";       // word for the names in messages
 };
 
 /// The grammar:
@@ -62,16 +61,17 @@ struct SyntaxRules {
 ///     product    := unary (('*'|'/') unary)*
 ///     unary      := ('+'|'-') unary | power
 ///     power      := atom (('^'|'**') unary)?
-/// At most 200 signs, powers, parentheses, sums and let are nested.   @throws Error where the text is no formula
+/// At most 200 signs, powers, parentheses, sums and let are nested. @throws Error if the text is not a formula
 Syntax read_syntax(std::string_view text, const SyntaxRules& rules);
 
-/// How deep an expression may be nested.
+/// The largest depth of nested expressions.
 inline constexpr int deepest_expression = 200;
-/// Words that mean something in every formula.
+/// Whether the word is reserved in formulas.
 bool is_keyword(std::string_view word);
-/// Whether a word begins one of the names: x of "x", "x[1]".
+/// Whether the word is one of the names or the part of it before an index: x of "x", "x[1]".
 bool names_something(std::span<const std::string> names, std::string_view word);
-/// Why something cannot be called `name`: it is a function, `let`, `in`, `sum`, `pi`, `t`, or no word. Empty if it can.
+/// Why `name` cannot be used as a name: it is a function, `let`, `in`, `sum`, `pi`, `t`, or not a word. Empty if it
+/// can.
 std::string refused_formula_name(const std::string& name);
 
 }  // namespace hamflow

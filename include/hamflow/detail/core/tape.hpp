@@ -1,16 +1,16 @@
-// A recording of the arithmetic in a problem's member templates. Called once with S = Trace<R>, they leave a straight
-// line of operations, from which the Taylor coefficients of a motion are propagated
-// (detail/numerics/taylor_series.hpp). [GriewankWalther2008, ch. 2, 13]
+// Records the arithmetic of a problem's member templates. A call with S = Trace<R> records a straight-line program,
+// from which the Taylor coefficients of a motion are computed (detail/numerics/taylor_series.hpp).
+// [GriewankWalther2008, ch. 2, 13]
 //
-// What is constant is computed at once, what occurs twice is recorded once, and what no output needs is dropped: dual
-// numbers over Trace, which differentiate a Hamiltonian that comes without a gradient, produce many zeros and ones.
-// A branch on the state has no place in a straight line: < and abs throw. A test for equality (a case of measure zero,
-// such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, which shows for a
-// later state that it would branch otherwise.
+// Constants are folded, common subexpressions are recorded once, and operations that no output needs are dropped: dual
+// numbers over Trace, which differentiate a Hamiltonian without a gradient, produce many zeros and ones. A
+// straight-line program cannot branch on the state: < and abs throw. A test for equality (a case of measure zero, such
+// as p_phi = 0) takes the branch of the recorded state and adds a guard, which detects a later state that would take
+// the other branch.
 //
-// An exact recording (Folding::exact) repeats to the last bit what numbers of type R would do, zeros' signs included:
-// nothing is left out that changes a bit for some input, a power is the power of the library, every comparison leaves a
-// guard. From it whole steps are made (src/engine/recorded_step.hpp).
+// An exact recording (Folding::exact) gives the same bits as numbers of type R, including the signs of zeros: no
+// simplification changes a bit for any input, pow is the library's function, and every comparison adds a guard.
+// Recorded steps are made this way (src/engine/recorded_step.hpp).
 #pragma once
 
 #include <algorithm>
@@ -30,13 +30,13 @@
 
 namespace hamflow {
 
-/// Of functions with one operand b is the node that their Taylor coefficients need: of sin the cosine, of cosh the sinh
-/// and the reverse, of tan and tanh the square of the node itself, of atan that of the operand.
+/// For functions with one operand, b is the node that their Taylor coefficients need: the cosine for sin, sinh for cosh
+/// and vice versa, the square of the node itself for tan and tanh, the square of the operand for atan.
 struct TapeNode {
   Operation operation;
   int a = -1;         // nodes
-  int b = -1;         // may stand later on the tape where only lower coefficients of it are used
-  int constant = -1;  // its place among the constants
+  int b = -1;         // may be a later node if only its lower coefficients are used
+  int constant = -1;  // its index among the constants
   int c = -1;         // a third node
 };
 
@@ -47,7 +47,7 @@ struct Tape {
   struct Guard {
     int node;
     R value;
-    bool holds;  // node is in this relation to value at the recording
+    bool holds;  // whether the relation of node to value holds at the recording
     Relation relation = Relation::equal;
   };
   std::size_t inputs = 0;
@@ -73,7 +73,7 @@ bool identical(const T& a, const T& b) {
 }
 }  // namespace detail
 
-/// What is computed is no straight line.
+/// The computation is not a straight-line program.
 struct CannotRecord : Error {
   using Error::Error;
 };
@@ -105,7 +105,7 @@ struct Trace {
   Trace& operator*=(const Trace& b) { return *this = *this * b; }
   Trace& operator/=(const Trace& b) { return *this = *this / b; }
 
-  // Friends, so that constants of any type convert.
+  // Friends, so that constants of any type are converted.
   friend Trace operator+(const Trace& a, const Trace& b) { return sum(a, b); }
   friend Trace operator-(const Trace& a, const Trace& b) { return difference(a, b); }
   friend Trace operator-(const Trace& a) { return negative(a); }
@@ -117,14 +117,12 @@ struct Trace {
   friend bool operator<=(const Trace& a, const Trace& b) { return !is_greater(a, b); }
   friend bool operator>=(const Trace& a, const Trace& b) { return !is_greater(b, a); }
 
-  /// Whether it belongs to an exact recording.
+  /// Whether this trace belongs to an exact recording.
   bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
 
   [[noreturn]] static void refuse() {
     throw CannotRecord(
-        "H has branches that depend on the state (a comparison or abs): taylor cannot differentiate across them; "
-        "dop853 "
-        "can step over them");
+        "H has branches that depend on the state (a comparison or abs), which taylor cannot differentiate; use dop853");
   }
 
  private:
@@ -146,7 +144,7 @@ template <class R>
 struct BaseScalar<Trace<R>> {
   using type = typename BaseScalar<R>::type;
 };
-/// Stays a trace: what is compared has to be known to the recording.
+/// The trace itself, since comparisons have to be recorded.
 template <class R>
 Trace<R> value_of(const Trace<R>& x) {
   return x;
@@ -159,7 +157,7 @@ class Recorder {
   explicit Recorder(Folding folding = Folding::usual, std::size_t most_nodes = static_cast<std::size_t>(-1))
       : exact_(folding == Folding::exact), most_nodes_(most_nodes) {}
   bool is_exact() const { return exact_; }
-  /// Forgets everything, but keeps its memory.
+  /// Removes all nodes and keeps the memory.
   void clear() {
     tape_.inputs = 0;
     tape_.nodes.clear();
@@ -182,7 +180,7 @@ class Recorder {
   [[gnu::noinline]] Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
     return once({.operation = operation, .a = a, .b = -1, .constant = constant(c)}, value);
   }
-  /// Two functions that differentiate into each other. @return the first
+  /// Two functions that are derivatives of each other (up to sign). @return the first
   [[gnu::noinline]] Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
     const int at = size();
     const Trace<R> found = once({.operation = first, .a = a, .b = at + 1}, value1);
@@ -192,18 +190,18 @@ class Recorder {
   Trace<R> second_of_pair(const Trace<R>& first) {
     return {values_[static_cast<std::size_t>(first.node) + 1], this, first.node + 1};
   }
-  /// y(a) whose derivative is made of y^2.
+  /// y(a), whose derivative is a function of y^2.
   [[gnu::noinline]] Trace<R> with_square(Operation operation, int a, const R& value) {
     const int at = size();
     const Trace<R> y = once({.operation = operation, .a = a, .b = at + 1}, value);
     if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
     return y;
   }
-  /// A function of two numbers of which one may be a constant.
+  /// A function of two numbers, one of which may be constant.
   [[gnu::noinline]] Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
     return of_two(operation, node_of(a), node_of(b), value);
   }
-  /// a > 0 ? b : c, of a node a.
+  /// a > 0 ? b : c for a node a.
   [[gnu::noinline]] Trace<R> choice(int a, const Trace<R>& b, const Trace<R>& c, const R& value) {
     return once({.operation = Operation::choose, .a = a, .b = node_of(b), .constant = -1, .c = node_of(c)}, value);
   }
@@ -237,7 +235,8 @@ class Recorder {
     values_.push_back(value);
     return {value, this, size() - 1};
   }
-  /// The same operation on the same operands is one node. Companions (b after the node itself) follow from a.
+  /// Records the same operation on the same operands only once. A companion (a node b after the node itself) is
+  /// determined by a, so it is not part of the key.
   Trace<R> once(const TapeNode& n, const R& value) {
     const bool companion = n.b >= size();
     if (known_.size() < 2 * (entries_ + 1)) enlarge();
@@ -254,7 +253,7 @@ class Recorder {
     ++entries_;
     return push(n, value);
   }
-  /// Where in the table of known nodes to begin with the search.
+  /// Where the search in the table of known nodes begins.
   std::size_t place_of(const TapeNode& n, bool companion) const {
     std::uint64_t key =
         (static_cast<std::uint64_t>(n.a) * 1000003U + static_cast<std::uint64_t>(companion ? -1 : n.b)) * 64U +
@@ -268,7 +267,7 @@ class Recorder {
     for (const int entry : old) {
       if (entry == 0) continue;
       const TapeNode& n = node(entry - 1);
-      std::size_t at = place_of(n, n.b >= entry);  // a companion stands behind its node
+      std::size_t at = place_of(n, n.b >= entry);  // a companion comes after its node
       while (known_[at] != 0) at = (at + 1) & (known_.size() - 1);
       known_[at] = entry;
     }
@@ -323,7 +322,7 @@ class Recorder {
   std::size_t most_nodes_;
   Tape<R> tape_;
   std::vector<R> values_;
-  std::vector<int> known_;  // nodes + 1 by their keys, 0: free; a power of two
+  std::vector<int> known_;  // hash table of nodes + 1, 0: free; the size is a power of two
   std::size_t entries_ = 0;
 };
 
@@ -379,7 +378,7 @@ bool Trace<R>::is_less(const Trace& a, const Trace& b) {
   ordered(a, b);
   return compared(a, b, Relation::less, a.value < b.value);
 }
-/// Or not ordered.
+/// True also if the numbers are unordered (NaN).
 template <class R>
 bool Trace<R>::is_greater(const Trace& a, const Trace& b) {
   ordered(a, b);
@@ -389,8 +388,8 @@ template <class R>
 void Trace<R>::ordered(const Trace& a, const Trace& b) {
   if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
 }
-/// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
-/// are 0 for equal numbers only.
+/// The result at the recording, with a guard for later states. The sign of the difference decides the comparison,
+/// because a difference is 0 only for equal numbers.
 template <class R>
 bool Trace<R>::compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
   if (a.is_constant() && b.is_constant()) return holds;
@@ -409,14 +408,14 @@ bool Trace<R>::compared(const Trace& a, const Trace& b, Relation relation, bool 
 }
 
 namespace detail {
-/// f of a constant at once, else a node of its own.
+/// f of a constant is computed at once; otherwise it is a new node.
 template <class R, class F>
 Trace<R> recorded(Operation operation, const Trace<R>& x, F&& f) {
   const R value = f(x.value);
   if (x.is_constant()) return Trace<R>(value);
   return x.recorder->of_two(operation, x.node, -1, value);
 }
-/// A function of two numbers, not both constant.
+/// A function of two numbers, at least one of which is not constant.
 template <class R>
 Trace<R> recorded(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
   return (a.is_constant() ? b : a).recorder->of_any_two(operation, a, b, value);
@@ -470,7 +469,7 @@ Trace<R> atan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(atan(x.value)));
   return x.recorder->of_two(Operation::atan, x.node, (x * x).node, R(atan(x.value)));
 }
-/// x^y for a constant exponent; whole exponents are products, so that x may be 0.
+/// x^y for a constant exponent; integer powers are products, so that x may be 0.
 template <class R>
 Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
   if (x.is_constant()) return Trace<R>(R(pow(x.value, y)));
@@ -488,13 +487,13 @@ Trace<R> abs(const Trace<R>& x) {
   if (!x.is_constant()) Trace<R>::refuse();
   return Trace<R>(R(abs(x.value)));
 }
-/// a < b ? b : a, which an exact recording has without a branch.
+/// a < b ? b : a; an exact recording computes it without a branch.
 template <class R>
 Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
   if (a.is_exact() || b.is_exact()) return detail::recorded(Operation::larger, a, b, larger(a.value, b.value));
   return a < b ? b : a;
 }
-/// a > 0 ? b : c, which an exact recording has without a branch: it computes both.
+/// a > 0 ? b : c; an exact recording computes both b and c, without a branch.
 template <class R>
 Trace<R> choose(const Trace<R>& a, const Trace<R>& b, const Trace<R>& c) {
   const bool first = R(0) < a.value;
@@ -502,7 +501,7 @@ Trace<R> choose(const Trace<R>& a, const Trace<R>& b, const Trace<R>& c) {
   if (!a.is_exact()) Trace<R>::refuse();
   return a.recorder->choice(a.node, b, c, first ? b.value : c.value);
 }
-/// Exact recordings have the function itself; Taylor coefficients are those of functions of which it is composed.
+/// Exact recordings record the function itself; for Taylor coefficients it is composed of other functions.
 template <class R>
 Trace<R> asin(const Trace<R>& x) {
   if (!x.is_constant() && !x.is_exact()) return atan(x / sqrt((Trace<R>(R(1)) - x) * (Trace<R>(R(1)) + x)));
@@ -514,9 +513,8 @@ Trace<R> acos(const Trace<R>& x) {
   if (!x.is_constant() && !x.is_exact()) return Trace<R>(R(2)) * atan(sqrt((one - x) / (one + x)));
   return detail::recorded(Operation::acos, x, [](const R& v) { return R(acos(v)); });
 }
-/// The angle of (x, y), composed of either half angle formula. The branch is that of the state at the recording; both
-/// are the same function where neither divides by 0. A test for equality tells where the recorded one does: there it is
-/// recorded anew.
+/// The angle of (x, y), by one of the two half-angle formulas, chosen by the state at the recording. Both give the same
+/// function unless one divides by 0; the guard of a test for equality detects this, and the function is recorded again.
 template <class R>
 Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
   const R value = atan2(y.value, x.value);
@@ -526,7 +524,7 @@ Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
   const Trace<R> r = sqrt(x * x + y * y);
   const Trace<R> sum = r + x;
   if (!(x.value < R(0)) && !(sum == Trace<R>(R(0)))) return two * atan(y / sum);
-  if (y == Trace<R>(R(0))) return Trace<R>(pi_value<R>()) + two * atan(y / (x - r));  // the same, from the other side
+  if (y == Trace<R>(R(0))) return Trace<R>(pi_value<R>()) + two * atan(y / (x - r));  // the other half-angle formula
   return two * atan((r - x) / y);
 }
 template <class R>
@@ -551,6 +549,6 @@ HAMFLOW_FUNCTIONS(HAMFLOW_TRACE_OF)
 
 }  // namespace hamflow
 
-/// What is finite, and where rounding begins, is the question of the numbers that are recorded.
+/// Limits and epsilon are those of the recorded number type.
 template <class R>
 struct std::numeric_limits<hamflow::Trace<R>> : std::numeric_limits<R> {};

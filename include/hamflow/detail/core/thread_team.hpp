@@ -1,6 +1,6 @@
-// Threads for work in pieces of some microseconds: the forces of one step. An idle thread looks for work for a while
-// before it sleeps, and no piece of work allocates. A piece goes to whichever thread is free: the result must not
-// depend on which thread computes it, as sums of integers do not.
+// Threads for pieces of work that take microseconds, such as the forces of one step. An idle thread spins for a while
+// before it sleeps, and no piece of work allocates. Any free thread takes the next piece, so the result must not depend
+// on which thread computes it, as for sums of integers.
 #pragma once
 
 #include <atomic>
@@ -18,16 +18,16 @@ namespace hamflow {
 class ThreadTeam {
  public:
   /// @param size the number of workers, the caller of share() included
-  /// @throws Error when the system starts no more threads
+  /// @throws Error if the system cannot start so many threads
   explicit ThreadTeam(std::size_t size) : size_(size) {
     threads_.reserve(size);
     try {
       for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
     } catch (const std::system_error& error) {
       const std::size_t started = threads_.size();
-      dismiss();  // those that were started sleep, and would be waited for in vain
+      dismiss();  // started threads sleep; without this the destructor would wait for ever
       throw Error("threads: found " + std::to_string(size) + "; allowed at most " + std::to_string(started + 1) +
-                  ", no more can be started here (" + error.code().message() + ")");
+                  ", the system starts no more (" + error.code().message() + ")");
     }
   }
   ThreadTeam(const ThreadTeam&) = delete;
@@ -37,9 +37,10 @@ class ThreadTeam {
   std::size_t size() const { return size_; }
   static constexpr std::size_t most_blocks = (std::size_t{1} << 32) - 1;
 
-  /// work(worker, call, block) for each block, by any worker, in any order; back when all are done. A worker that comes
-  /// late finds nothing to do, and is not waited for. One caller at a time; `work` must not throw.
-  /// @param blocks at most most_blocks   @return the number of this call, which is passed to `work` too
+  /// Calls work(worker, call, block) for each block, on any worker, in any order, and returns when all are done. It
+  /// does not wait for workers that wake up late and find no work. Only one thread may call it at a time; `work` must
+  /// not throw.
+  /// @param blocks at most most_blocks @return the number of this call, which `work` receives, too
   /// @throws Error for more blocks
   template <class Work>
   std::uint64_t share(std::size_t blocks, Work& work) {
@@ -60,7 +61,7 @@ class ThreadTeam {
       if (looks < patience) {
         pause();
       } else {
-        std::this_thread::yield();  // the worker that has the last block may need this very processor
+        std::this_thread::yield();  // the worker with the last block may need this processor
       }
     }
     return call_;
@@ -76,7 +77,8 @@ class ThreadTeam {
 #endif
   }
   void wake() {
-    // A sleeper says that it sleeps, then looks at calls_; here it is the other way round. Neither may pass the other.
+    // A worker first announces that it sleeps and then reads calls_; here calls_ is written first and sleepers are read
+    // afterwards. Neither pair may be reordered.
     calls_.fetch_add(1, std::memory_order_seq_cst);
     calls_.notify_all();
   }
@@ -100,9 +102,9 @@ class ThreadTeam {
       help(worker);
     }
   }
-  /// Takes blocks while there are any. A ticket holds the low half of the call's number, so that one that was looked at
-  /// before the call ended cannot be taken afterwards. What belongs to a call (job_, run_, call_) is read only with a
-  /// block of it in hand, for which the caller waits.
+  /// Takes blocks while there are any. A ticket holds the low half of the call's number, so that a ticket read before
+  /// the call ended cannot be taken afterwards. The data of a call (job_, run_, call_) are read only while holding one
+  /// of its blocks, for which the caller waits.
   void help(std::size_t worker) {
     std::uint64_t ticket = tickets_.load(std::memory_order_acquire);
     while ((ticket & most_blocks) != 0) {
@@ -117,9 +119,9 @@ class ThreadTeam {
   void* job_ = nullptr;
   void (*run_)(void*, std::size_t, std::uint64_t, std::size_t) = nullptr;
   std::uint64_t call_ = 0;
-  alignas(64) std::atomic<std::uint64_t> tickets_{0};  // the call's number, and how many of its blocks are left
+  alignas(64) std::atomic<std::uint64_t> tickets_{0};  // the number of the call and of its remaining blocks
   alignas(64) std::atomic<std::size_t> done_{0};
-  alignas(64) std::atomic<std::uint32_t> calls_{0};  // what the sleeping wait for
+  alignas(64) std::atomic<std::uint32_t> calls_{0};  // sleeping workers wait for a change
   std::atomic<bool> leaving_{false};
   std::vector<std::jthread> threads_;
 };

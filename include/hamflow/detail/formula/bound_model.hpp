@@ -32,7 +32,7 @@ class BoundModel {
     if (model_->constraints) {
       constraints_ = bound(model_->constraints);
       constraint_gradients_ = bound(model_->constraint_gradients);
-      constraint_bends_ = bound(model_->constraint_bends);
+      constraint_curvatures_ = bound(model_->constraint_curvatures);
     }
     if (model_->scaled_force) {
       scaled_force_ = bound(model_->scaled_force);
@@ -132,9 +132,9 @@ class BoundModel {
   }
   /// g''(v, v).
   template <class S>
-  V<S> constraint_bends(const V<S>& q, const V<S>& v) const {
+  V<S> constraint_curvatures(const V<S>& q, const V<S>& v) const {
     V<S> all = zeros<S, dynamic>(model_->structure().constraints);
-    run(constraint_bends_, q, v, S(R(0)), [&](std::size_t k, const S& x) { all[k] = x; });
+    run(constraint_curvatures_, q, v, S(R(0)), [&](std::size_t k, const S& x) { all[k] = x; });
     return all;
   }
 
@@ -212,7 +212,7 @@ class BoundModel {
   std::function<double(int)> rounded_value_of_;
   BoundCode<R> energy_, kinetic_, potential_, velocity_, force_, gradient_, invariants_;
   BoundCode<R> scaled_force_, scaled_velocity_;
-  BoundCode<R> constraints_, constraint_gradients_, constraint_bends_;
+  BoundCode<R> constraints_, constraint_gradients_, constraint_curvatures_;
   std::shared_ptr<Second> second_ = std::make_shared<Second>();
 };
 

@@ -78,7 +78,7 @@ class Model {
   std::shared_ptr<const Code> energy, kinetic, potential, velocity, force, gradient;  // gradient: dH/dq, then dH/dp
   std::shared_ptr<const Code> invariant_values;
   /// Of constraints: g; g', row by row, of all degrees(); g''(p, p), with a velocity in place of p.
-  std::shared_ptr<const Code> constraints, constraint_gradients, constraint_bends;
+  std::shared_ptr<const Code> constraints, constraint_gradients, constraint_curvatures;
   /// Of a force that is one scalar times the position, as in central fields: factor f, factor v, where the factor meets
   /// the constants (core/derivatives.hpp); else null.
   std::shared_ptr<const Code> scaled_force, scaled_velocity;

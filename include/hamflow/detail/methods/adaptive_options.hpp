@@ -1,5 +1,5 @@
-// What a user can choose about the methods that control their own sub-steps, and what they then claim.
-// How they choose them is explained in docs/design.md, dop853 and taylor.
+// Options and claims of the methods with adaptive sub-steps. docs/design.md, dop853 and taylor, explains how they
+// choose these.
 #pragma once
 
 #include <cmath>
@@ -13,16 +13,16 @@ struct AdaptiveOptions {
   long double tolerance = 1e-12;  // beyond the range of a double for more than 300 digits; on the error of a sub-step,
                                   // relative to the size of q and of p, each by itself
   int order = 0;                  // of taylor; 0: the cheapest for the tolerance
-  bool fixed = false;             // one sub-step a step, whatever its error: what orders are measured on
+  bool fixed = false;             // one sub-step per step, whatever its error; used to measure orders
   int max_substeps = 100000;
 };
 
-/// What dop853 claims. The step control is even in h and does not see the sign of p, so that the first step is weakly
-/// reversible; later ones remember where they came from.
+/// The claims of dop853. The step control is even in h and does not depend on the sign of p, so that the first step is
+/// weakly reversible; later steps depend on the proposal of earlier ones.
 inline MethodInfo describe_dop853(const AdaptiveOptions& options) {
   return {.name = "dop853",
           .summary = options.fixed ? "explicit Runge-Kutta, 12 stages, order 8"
-                                   : "explicit Runge-Kutta, 12 stages, order 8, with sub-steps of its own",
+                                   : "explicit Runge-Kutta, 12 stages, order 8, with adaptive sub-steps",
           .reference = "HNW1993, II.5, II.10",
           .order = 8,
           .weakly_reversible = true,
@@ -35,11 +35,11 @@ inline int taylor_order(const AdaptiveOptions& options) {
   return options.order > 0 ? options.order : static_cast<int>(std::ceil(1 - std::log(options.tolerance) / 2));
 }
 
-/// What taylor of a given order claims.
+/// The claims of taylor of a given order.
 inline MethodInfo describe_taylor(const AdaptiveOptions& options, int order) {
   return {.name = "taylor",
           .summary = "Taylor series of order " + std::to_string(order) + " by automatic differentiation" +
-                     (options.fixed ? "" : ", with sub-steps of its own"),
+                     (options.fixed ? "" : ", with adaptive sub-steps"),
           .reference = "JorbaZou2005; GriewankWalther2008, ch. 13",
           .order = order,
           .weakly_reversible = true,

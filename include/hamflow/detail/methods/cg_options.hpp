@@ -1,4 +1,4 @@
-// What a user can choose about cg, and what it then claims.
+// Options and claims of cg.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a user can choose about eg, and what it then claims.
+// Options and claims of eg.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ inline constexpr int largest_eg_degree = 3;
 
 inline MethodInfo describe(const EgOptions& options) {
   return {.name = "eg(" + std::to_string(options.degree) + ")",
-          .summary = "enhanced Galerkin element in time: keeps energy, linear and angular momentum",
+          .summary = "enhanced Galerkin element in time: conserves energy, linear and angular momentum",
           .reference = "GrossBetschSteinmann2005; HLW2006, Sect. II.1.3",
           .order = 2 * options.degree,
           .explicit_step = false,

@@ -1,4 +1,4 @@
-// What a user can choose about Gauss collocation, and what it then claims.
+// Options and claims of Gauss collocation.
 #pragma once
 
 #include <optional>

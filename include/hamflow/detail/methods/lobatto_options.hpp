@@ -1,4 +1,4 @@
-// What a user can choose about lobatto-3a-3b, and what it then claims.
+// Options and claims of lobatto-3a-3b.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// The sub-steps of one step of an adaptive method. Lengths are fractions of the step, in double whatever the
-// arithmetic, and whole multiples of 2^-50: their sums are exact, and the last one ends where the step ends.
+// The sub-steps of one step of an adaptive method. Lengths are fractions of the step, in double for every arithmetic,
+// and multiples of 2^-50, so that their sums are exact and the last sub-step ends exactly at the end of the step.
 #pragma once
 
 #include <cmath>
@@ -7,14 +7,14 @@
 
 namespace hamflow {
 
-/// A finite double in R, exactly, for an R of at least 53 bits that is only known to take an int.
+/// Converts a finite double exactly to R, which has at least 53 bits but may convert only from int.
 template <class R>
 R exact_number(double x) {
   if constexpr (std::is_floating_point_v<R>) {
     return static_cast<R>(x);
   } else {
     int exponent = 0;
-    const double mantissa = std::frexp(x, &exponent) * 0x1p26;  // 53 bits: 26 before the point and 27 after
+    const double mantissa = std::frexp(x, &exponent) * 0x1p26;  // 53 bits: 26 before the binary point and 27 after it
     const int high = static_cast<int>(mantissa);
     const int low = static_cast<int>((mantissa - high) * 0x1p27);
     R value = R(high) + R(low) / R(1 << 27);
@@ -32,7 +32,7 @@ class Substeps {
   int taken() const { return taken_; }
   double done() const { return done_; }
 
-  /// The next sub-step: what is left, in equal parts that are no longer than `allowed`. 0: `allowed` is too short.
+  /// The next sub-step: the rest of the step in equal parts not longer than `allowed`; 0 if `allowed` is too short.
   double next(double allowed) const {
     const double rest = 1 - done_;
     if (allowed >= rest) return rest;

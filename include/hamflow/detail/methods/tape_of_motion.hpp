@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// **Traceable**: the derivatives of H as templates that a recording can be passed through.
+/// **Traceable**: the derivatives of H are templates that can be recorded.
 template <class P, class R>
 concept Traceable = Differentiable<P> &&
     ((HasVelocity<P, Trace<R>> && HasForce<P, Trace<R>>) || HasGradient<P, Trace<R>> ||
@@ -16,7 +16,7 @@ concept Traceable = Differentiable<P> &&
       (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
 
 namespace detail {
-/// Calls outputs(x, y) with the inputs q and p, and records what it returns.
+/// Calls outputs(x, y) with the inputs q and p, and records the returned values.
 template <class R, std::size_t N, class Outputs>
 Tape<R> tape_at(Recorder<R>& recorder, const Vector<R, N>& q, const Vector<R, N>& p, const Outputs& outputs) {
   Vector<Trace<R>, N> x = zeros<Trace<R>, N>(q.size());
@@ -26,7 +26,7 @@ Tape<R> tape_at(Recorder<R>& recorder, const Vector<R, N>& q, const Vector<R, N>
   return recorder.finish(outputs(x, y));
 }
 
-/// A state like any other: what cannot be recorded is refused there, before anything runs.
+/// A generic state, at which an H that cannot be recorded is refused before the run.
 template <class R, std::size_t N, class P>
 std::pair<Vector<R, N>, Vector<R, N>> any_state(const P& problem) {
   Vector<R, N> q = zeros<R, N>(degrees_of_freedom(problem));
@@ -53,14 +53,14 @@ Tape<R> tape_of_motion(const P& problem, const Vector<R, N>& q, const Vector<R, 
   });
 }
 
-/// H, with its branches as guards: |x| and the like are recorded.
+/// H, with branches as guards, so that |x| and similar functions can be recorded.
 template <class R, class P, std::size_t N>
 Tape<R> tape_of_energy(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
   Recorder<R> recorder(Folding::exact);
   return detail::tape_at(recorder, q, p,
                          [&](const auto& x, const auto& y) { return std::vector{Trace<R>(energy(problem, x, y))}; });
 }
-/// dH/dq and dH/dp, likewise.
+/// dH/dq and dH/dp, with branches as guards.
 template <class R, class P, std::size_t N>
 Tape<R> tape_of_gradient(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
   Recorder<R> recorder(Folding::exact);

@@ -26,7 +26,7 @@ struct Halves {
 /// on average, what is rounded has to have random digits, whatever h is. With h = 1/8 alone there would be none. The
 /// golden ratio is the number whose multiples are spread most evenly.
 template <class Real>
-inline Real golden() {
+inline Real golden_ratio() {
   return Real(1.6180339887498949);
 }
 }  // namespace detail

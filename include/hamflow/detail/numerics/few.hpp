@@ -9,7 +9,7 @@
 namespace hamflow {
 
 /// At most `most` numbers; a value.
-struct Few {
+struct SmallVector {
   static constexpr std::size_t most = 6;
   using value_type = double;
 
@@ -31,8 +31,8 @@ struct Few {
 };
 
 /// A square matrix.
-struct FewRows {
-  double entry[Few::most][Few::most];
+struct SmallRows {
+  double entry[SmallVector::most][SmallVector::most];
   std::size_t count = 0;
 
   double* operator[](std::size_t row) { return entry[row]; }
@@ -41,14 +41,14 @@ struct FewRows {
 };
 
 /// x with m x = b, with the bits of systems of that size.
-Few solve(const FewRows& m, const Few& b);
+SmallVector solve(const SmallRows& m, const SmallVector& b);
 /// The largest absolute entry.
-inline double max_norm(const Few& x) {
+inline double max_norm(const SmallVector& x) {
   double largest = 0;
   for (const double v : x) largest = larger(largest, std::abs(v));
   return largest;
 }
-double determinant(const FewRows& m);
-double condition_number(const FewRows& m);
+double determinant(const SmallRows& m);
+double condition_number(const SmallRows& m);
 
 }  // namespace hamflow

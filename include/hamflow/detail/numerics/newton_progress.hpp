@@ -118,9 +118,9 @@ class NewtonProgress {
 
 /// After a first guess that lay far away, steps begin from the last state until so many extrapolated guesses in a row
 /// would have been good: as many as are extrapolated from.
-inline constexpr int good_guesses_wanted = 3;
+inline constexpr int good_guesses_needed = 3;
 /// How many are wanted after another one. @param wanted before it
-constexpr int good_guesses_wanted_after(int wanted, bool is_good) { return is_good ? wanted - 1 : good_guesses_wanted; }
+constexpr int good_guesses_needed_after(int wanted, bool is_good) { return is_good ? wanted - 1 : good_guesses_needed; }
 
 /// Whether what counts as rounding is no less than a millionth of the unknowns themselves: at a guess so far off that
 /// forces round by more than the whole step, any correction looks small. At the solution of a step that does not begin

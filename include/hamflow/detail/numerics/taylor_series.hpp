@@ -79,7 +79,7 @@ class TaylorSeries {
   template <class U>
   bool solve(const Tape<Constant>& tape, std::size_t order, const U& unit) {
     for (std::size_t k = 0; k < order; ++k) {
-      if (!std::is_floating_point_v<Constant> && StopQuestion::answered()) return true;
+      if (!std::is_floating_point_v<Constant> && StopQuestion::stop_requested()) return true;
       for (std::size_t i = tape.inputs; i < tape.nodes.size(); ++i) extend(tape, static_cast<int>(i), k);
       if (k == 0 && !guards_hold(tape)) return false;
       for (std::size_t i = 0; i < tape.inputs; ++i) {

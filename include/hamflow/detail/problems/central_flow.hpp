@@ -1,5 +1,5 @@
 // The exact flow in time in any central potential: t(r) and phi(r) by quadrature, t(r) inverted. Whole radial periods
-// are taken off first. All in long double.   [Gross1999, (2.29), (2.39)]
+// are subtracted first. Everything is in long double.   [Gross1999, (2.29), (2.39)]
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace hamflow {
 
 namespace detail {
 
-/// A state by its polar parts: r, phase, r' with its sign. On lines through the centre `side` is -1 beyond it.
+/// A state in polar form: r, phase, r' with its sign. On lines through the centre `side` is -1 beyond the centre.
 struct PolarState {
   long double r = 0;
   long double phase = 0;
@@ -19,7 +19,7 @@ struct PolarState {
   long double side = 1;
 };
 
-/// From the apsis to both sides, time since it: `since` = -half .. half.
+/// The state at a time before or after an apsis, `since` = -half .. half.
 template <class Potential>
 PolarState after(const RadialMotion<Potential>& motion, const RadialClock<Potential>& clock, long double t) {
   using L = long double;
@@ -38,7 +38,7 @@ PolarState after(const RadialMotion<Potential>& motion, const RadialClock<Potent
     if (motion.angular_momentum() != 0) state.phase = outward * clock.phase(start, x);
     return state;
   }
-  // Where the way begins at apocentre, time counts from there, and the radius falls with it.
+  // If the motion starts at apocentre, time counts from there and the radius decreases.
   const L sense = clock.from() == From::apocentre_to_centre ? L(-1) : L(1);
   const bool through_centre = sense < 0;
   L since = sense * outward * clock.time(start) + t;
@@ -63,7 +63,7 @@ PolarState after(const RadialMotion<Potential>& motion, const RadialClock<Potent
   return state;
 }
 
-/// Whether the centre lies between now and t on a motion that reaches it.
+/// Whether a motion that reaches the centre does so between now and t.
 template <class Potential>
 bool meets_centre(const RadialMotion<Potential>& motion, const RadialClock<Potential>& clock, long double t) {
   using L = long double;
@@ -74,8 +74,8 @@ bool meets_centre(const RadialMotion<Potential>& motion, const RadialClock<Poten
   return abs(t - outward * from_apsis) >= clock.time(clock.end());
 }
 
-/// The motion passes a maximum of V_eff so slowly that the quadrature over time does not resolve it: at the top the
-/// radial energy is less than V_eff falls by within a twentieth of the radius.
+/// Whether the motion passes a maximum of V_eff so slowly that the quadrature over time does not resolve it: at the
+/// maximum the radial energy is less than the decrease of V_eff within a twentieth of the radius.
 template <class Potential>
 bool near_separatrix(const RadialMotion<Potential>& motion) {
   for (const CircularOrbit& at : motion.extrema()) {
@@ -88,9 +88,9 @@ bool near_separatrix(const RadialMotion<Potential>& motion) {
 
 }  // namespace detail
 
-/// The state after time t; empty where there is none (the motion ends in a singular centre, or at infinity), on a
-/// separatrix or an unstable circle, where rounding decides, and close to one; and where a quadrature does not come to
-/// rest, because V_eff cancels to rounding, as -1/r^2 can.
+/// The state after time t. It is empty if the motion ends in a singular centre or at infinity, on or near a separatrix
+/// or an unstable circle, where rounding decides, and if a quadrature does not converge because the terms of V_eff
+/// cancel, as for -1/r^2.
 template <class Potential>
 std::optional<Start<long double, 2>> central_flow(const Potential& potential, long double mass,
                                                   const Vector<long double, 2>& q, const Vector<long double, 2>& p,

@@ -26,14 +26,14 @@ Matrix<S, 2> pendulum_mass(const DoublePendulumBody<R>& body, const S& cosine) {
   if constexpr (angles == Angles::absolute) return {Vector<S, 2>{S(body.a), coupling}, {coupling, S(body.c)}};
   return {Vector<S, 2>{R(2) * coupling + (body.a + body.c), coupling + body.c}, {coupling + body.c, S(body.c)}};
 }
-/// M^-1 from M and its determinant, which knows no cancellation. (3.151), (3.176)
+/// M^-1 from M and its determinant, which is computed without cancellation. (3.151), (3.176)
 template <class S>
 Matrix<S, 2> pendulum_inverse(const Matrix<S, 2>& mass, const S& determinant) {
   return {Vector<S, 2>{mass[1][1] / determinant, -(mass[0][1] / determinant)},
           {-(mass[1][0] / determinant), mass[0][0] / determinant}};
 }
 
-/// What the models share. A period of the faster mode is 2 pi/sqrt(5.65 g/l) = 0.84 for unit rods.
+/// The common declarations of the models. A period of the faster mode is 2 pi/sqrt(5.65 g/l) = 0.84 for unit rods.
 inline ProblemInfo double_pendulum_info(const char* model, Angles angles, const char* formula,
                                         std::vector<ParameterInfo> parameters) {
   const bool absolute = angles == Angles::absolute;
@@ -142,7 +142,7 @@ class DoublePendulumNonlinear : public PendulumChart<R, angles> {
  private:
   static constexpr bool is_relative = angles == Angles::relative;
 
-  /// What both derivatives need, in absolute angles.
+  /// Quantities for both derivatives, in absolute angles.
   template <class S>
   struct Motion {
     S cosine;  // of delta
@@ -273,7 +273,7 @@ class DoublePendulumLinear : public PendulumChart<R, angles> {
   /// The exact state at time t. (3.33)
   std::optional<Start<long double, 2>> exact(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                              long double t) const {
-    // Where one mass is nothing beside the other, the modes carry the roundings of the heavy one.
+    // If one mass is negligible, the modes have the rounding errors of the heavy one.
     const R first = inverse_mass_[0][0];
     const R second = inverse_mass_[1][1];
     if (!(first <= R(0x1p30) * second && second <= R(0x1p30) * first)) return std::nullopt;

@@ -1,4 +1,4 @@
-// What the mass matrices and potentials of a double pendulum are made of. Massless rods of lengths 2 l_i carry masses
+// The coefficients of mass matrices and potentials of a double pendulum. Massless rods of lengths 2 l_i carry masses
 // m_i at their middles and inertias theta_i [Gross1999, figure 3.1, (3.52), remark 3.2]; from
 //     r1 = l1 (sin q1, cos q1),   r2 = 2 l1 (sin q1, cos q1) + l2 (sin q2, cos q2)
 // follow, in absolute angles,
@@ -43,18 +43,18 @@ struct DoublePendulumBody {
                            given["gravity"]) {}
 
   static std::vector<ParameterInfo> parameters() {
-    return {{"masses", "[1, 1]", "m1, m2, in the middles of the rods", Range::positive, OptionType::list, 2},
-            {"half_lengths", "[1, 1]", "l1, l2: the rods have lengths 2 l", Range::positive, OptionType::list, 2},
-            {"inertias", "[0, 0]", "theta1, theta2, of the rods about their middles", Range::not_negative,
-             OptionType::list, 2},
+    return {{"masses", "[1, 1]", "masses m1, m2 at the middles of the rods", Range::positive, OptionType::list, 2},
+            {"half_lengths", "[1, 1]", "half lengths l1, l2 of the rods", Range::positive, OptionType::list, 2},
+            {"inertias", "[0, 0]", "moments of inertia theta1, theta2 of the rods about their middles",
+             Range::not_negative, OptionType::list, 2},
             {"gravity", "9.81", "g"}};
   }
 
-  /// What is allowed, if M is singular; else empty. det M > 0 for all positive masses and lengths, unless their
+  /// What is allowed instead if M is singular; else empty. det M > 0 for all positive masses and lengths, unless their
   /// products leave the range of R.
   std::string allowed_instead() const {
     if (least_determinant > R(0) && isfinite(least_determinant)) return {};
-    return "masses, half_lengths and inertias whose mass matrix is regular to rounding";
+    return "masses, half_lengths and inertias whose mass matrix is not singular to rounding";
   }
 
   /// det M at q1 - q2 with the given sine.

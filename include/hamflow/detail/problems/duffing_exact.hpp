@@ -1,12 +1,12 @@
 // x'' = -a x - b x^3 in time, by Jacobi's elliptic functions, for every bounded motion.   [DLMF,
 // Sect. 22.13, 22.19(ii)] x'^2 = 2 e - a x^2 - b x^4/2 is quadratic in x^2; its roots are (-a +- S)/b with
 //     S^2 = a^2 + 4 b e = w^2 + 2 b v^2,   w = a + b x^2,
-// and the form of the motion follows from where they lie:
+// and the form of the motion depends on their signs:
 //     b > 0, e >= 0 or a >= 0:  x = A cn(n t + u0),      n^2 = S,           A^2 = (S - a)/b,     m = (S - a)/(2 S),
 //     b > 0, e < 0:             x = +-A dn(n t + u0),    n^2 = (S - a)/2,   A^2 = (S - a)/b,     m = 2 S/(S - a),
 //     b < 0, inside the well:   x = A sn(n t + u0),      n^2 = (a + S)/2,   A^2 = 4 e/(a + S),   m = (a - S)/(a + S).
-// The separatrices e = 0 (b > 0 > a) and S = 0 (b < 0 < a) are m = 1. Every difference is written so that what cancels
-// is at most what a rounding of x, v, a or b would change.
+// The separatrices e = 0 (b > 0 > a) and S = 0 (b < 0 < a) are m = 1. Every difference is written so that cancellation
+// costs at most the effect of a rounding of x, v, a or b.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ inline LinearMotion hardening_motion(long double x, long double v, long double a
   const Long amplitude = sqrt(square);
   // H is even in (x, v): the motion is that of |x|, mirrored.
   const Long side = x < 0 ? -1 : 1;
-  const Long sign = side * v > 0 ? -1 : 1;  // of sn: outward motion has not reached the turning point yet
+  const Long sign = side * v > 0 ? -1 : 1;  // sign of sn: an outward motion has not reached the turning point yet
   if (other >= 0) {
     const Long rate = sqrt(root);
     const Long m1 = other / (2 * root);

@@ -1,4 +1,4 @@
-// What the effective potential V_eff(r) = V(r) + l^2/(2 mu r^2) says of an orbit.   [Gross1999, (2.37)-(2.44)]
+// Properties of an orbit from the effective potential V_eff(r) = V(r) + l^2/(2 mu r^2).   [Gross1999, (2.37)-(2.44)]
 #pragma once
 
 #include <optional>
@@ -31,13 +31,13 @@ inline const char* name_of(OrbitType type) {
 
 struct CentralOrbit {
   OrbitType type = OrbitType::unbounded;
-  std::string conic{};  // "circle", "ellipse", "parabola", "hyperbola", "line"; empty where it is none
+  std::string conic{};  // "circle", "ellipse", "parabola", "hyperbola", "line"; empty if it is not a conic
   long double energy = 0;
-  long double angular_momentum = 0;  // 0 where it is nothing but rounding
-  long double r_min = 0;             // turning points; 0 where the centre is reached
-  long double r_max = 0;             // infinity where the motion is unbounded
-  /// The circular orbit of this angular momentum, 0 if there is none: the deepest minimum of V_eff between the turning
-  /// points; without one there the extremum of V_eff that is nearest by the ratio of radii.
+  long double angular_momentum = 0;  // 0 if it is only rounding
+  long double r_min = 0;             // turning points; 0 if the centre is reached
+  long double r_max = 0;             // infinity if the motion is unbounded
+  /// The circular orbit of this angular momentum, 0 if there is none: at the deepest minimum of V_eff between the
+  /// turning points or, without one, at the extremum of V_eff nearest by the ratio of radii.
   long double circular_radius = 0;
   bool circular_stable = false;  // V_eff'' > 0
   /// From pericentre to apocentre, half of (2.43), not negative; to infinity on unbounded orbits; of the small
@@ -57,8 +57,8 @@ struct CentralOrbit {
   bool falls_into_centre = false;  // the motion ends there: V has no finite value at r = 0
 };
 
-/// The fraction numerator/denominator within `tolerance` of x >= 0 with the smallest denominator, if that is no larger
-/// than `largest`. A fraction nearer than 1/(2 denominator^2) is a convergent of the continued fraction of x.
+/// The fraction with the smallest denominator within `tolerance` of x >= 0, if that is at most `largest`. A fraction
+/// closer than 1/(2 denominator^2) is a convergent of the continued fraction of x.
 inline std::optional<std::pair<int, int>> commensurable(long double x, int largest, long double tolerance) {
   long double p = 1;
   long double q = 0;
@@ -76,7 +76,7 @@ inline std::optional<std::pair<int, int>> commensurable(long double x, int large
   return std::nullopt;
 }
 
-/// Radial periods after which an orbit may close to be called closed.
+/// The largest number of radial periods after which an orbit counts as closed.
 inline constexpr int most_radial_periods = 32;
 
 namespace detail {
@@ -124,8 +124,8 @@ long double phase_from_centre(const RadialMotion<Potential>& motion, const Radia
 }
 }  // namespace detail
 
-/// The orbit through (q, p). Computed in long double; what is below the rounding of R, in which the state is given,
-/// counts as nothing: an angular momentum, the distance from a circle, the energy of a parabola.
+/// The orbit through (q, p), computed in long double. Quantities below the rounding of R, the type of the state, count
+/// as 0: an angular momentum, the distance from a circle, the energy of a parabola.
 ///
 /// The apsidal angle counts as commensurable within 1024 roundings of R. It must be more than one rounding, because the
 /// angle moves with the state's; and it must be small: a fraction with a denominator up to 32 is met by chance with the
@@ -150,14 +150,14 @@ CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Ve
     orbit.type = OrbitType::circle;
     orbit.circular_radius = r;
     L curvature = r > 0 ? motion.effective_curvature(r) : L(1);
-    // V = a/r^2: no circle is stable, and rounding alone would make it so.
+    // V = a/r^2: no circle is stable, but rounding could make it appear so.
     if (r > 0 && curvature <= 8 * rounding * motion.size_of_curvature(r)) curvature = 0;
     orbit.circular_stable = curvature > 0;
     const L radial_rate = curvature > 0 ? sqrt(curvature / static_cast<L>(mass)) : L(0);
     orbit.radial_period = 2 * pi_value<L>() / radial_rate;
     orbit.apsidal_angle = l == 0 ? L(0) : pi_value<L>() * abs(l) / (static_cast<L>(mass) * r * r) / radial_rate;
     orbit.closed = true;
-    orbit.revolutions = l == 0 ? 0 : 1;  // at rest it never goes round
+    orbit.revolutions = l == 0 ? 0 : 1;  // at rest there is no revolution
     const auto ratio = commensurable(orbit.apsidal_angle / pi_value<L>(), most_radial_periods, 1024 * rounding);
     if (ratio && ratio->first == orbit.revolutions && orbit.radial_period < infinity) {
       orbit.radial_periods = ratio->second;

@@ -12,8 +12,8 @@
 
 namespace hamflow {
 
-/// Where an orbit with energy E and angular momentum l begins: at the innermost pericentre; where there is none,
-/// because the motion reaches the centre, at apocentre; on a circle anywhere.
+/// The start of an orbit with energy E and angular momentum l: the innermost pericentre; the apocentre if the motion
+/// reaches the centre; any point of a circle.
 template <class R>
 struct TurningPoint {
   R radius{};
@@ -21,7 +21,7 @@ struct TurningPoint {
 };
 
 namespace detail {
-/// A root of f near x in all the digits of R: the search is done in long double, and a secant does the rest.
+/// A root of f near x with all digits of R. The search was in long double; the secant method refines it.
 template <class R, class F>
 R polished(const F& f, long double x) {
   if constexpr (std::is_floating_point_v<R>) {
@@ -34,7 +34,7 @@ R polished(const F& f, long double x) {
       const R value = f(here);
       const R slope = (value - value_before) / (here - before);
       const R change = value / slope;
-      if (!(abs(change) <= std::numeric_limits<R>::max())) break;  // twice the same value: as near as it gets
+      if (!(abs(change) <= std::numeric_limits<R>::max())) break;  // the same value twice: no further improvement
       before = here;
       value_before = value;
       here = here - change;
@@ -45,9 +45,9 @@ R polished(const F& f, long double x) {
 }
 }  // namespace detail
 
-/// @param exact, potential the same in R and in the hardware's numbers, in which the search is done
-/// @param conditions receives "V_eff <= energy" at the deepest point of V_eff, which fails where there is no orbit
-/// @throws Error when the motion has no turning point
+/// @param exact, potential the potential in R and in a hardware type, which the search uses
+/// @param conditions receives "V_eff <= energy" at the lowest point of V_eff, which fails if there is no orbit
+/// @throws Error if the motion has no turning point
 template <class R, class Exact, class Rough>
 TurningPoint<R> turning_point(const Exact& exact, const Rough& potential, const R& mass, const R& energy,
                               const R& angular_momentum, Conditions& conditions) {
@@ -72,8 +72,8 @@ TurningPoint<R> turning_point(const Exact& exact, const Rough& potential, const 
   const auto size = [&](L r) {
     return abs(static_cast<L>(potential.value(r * r))) + l * l / (2 * mu * r * r) + abs(e);
   };
-  // The shape of V_eff is the same for every energy: any state of this angular momentum shows its extrema, between
-  // which V_eff is monotone.
+  // V_eff does not depend on the energy, so that any state with this angular momentum gives its extrema, between which
+  // V_eff is monotone.
   const RadialMotion<Rough> shape(potential, mu, Vector<L, 2>{1, 0}, Vector<L, 2>{0, l}, rounding);
   std::vector<L> radii{0x1p-60L, 0x1p60L};
   for (const CircularOrbit& at : shape.extrema()) radii.push_back(at.radius);
@@ -107,7 +107,7 @@ TurningPoint<R> turning_point(const Exact& exact, const Rough& potential, const 
                      false);
   return {static_cast<R>(deepest), true};
 }
-/// Of a potential with parameters, `mass` among them.
+/// The start for a potential with parameters, including `mass`.
 template <template <class> class Potential, class R>
 TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const R& angular_momentum,
                               Conditions& conditions) {

@@ -1,5 +1,5 @@
 // N bodies under gravity, H = sum |p_i|^2/(2 m_i) - G sum_{i<j} m_i m_j/sqrt(r_ij^2 + softening^2), in the plane or in
-// space: the pair system whose law is `newton`, with the strength G m_i m_j.   [HLW2006, (I.2.11)]
+// space: the pair system with the law `newton` and the strength G m_i m_j.   [HLW2006, (I.2.11)]
 #pragma once
 
 #include "hamflow/detail/problems/pair_system.hpp"
@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// The functions of a pair are asked at u = r^2 + softening^2, with one quotient each.
+/// The functions of a pair at u = r^2 + softening^2, with one quotient each.
 template <class R>
 struct GravityModel : Particles<R> {
   using Particles<R>::masses;
@@ -46,7 +46,7 @@ struct GravityModel : Particles<R> {
   /// The pair i, j adds c (I - 3 d d^T/u), c = G m_i m_j u^(-3/2), to the blocks ii and jj and subtracts it from ij and
   /// ji.
   template <class S>
-  auto bend(const S& u, std::size_t i, std::size_t j) const {
+  auto pair_hessian(const S& u, std::size_t i, std::size_t j) const {
     return [u, c = pull(u, i, j)](const S* d, std::size_t k, std::size_t l) {
       return S((k == l ? c : S(0)) - R(3) * c * d[k] * d[l] / u);
     };
@@ -87,19 +87,21 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
             {"linear_momentum", "P = sum p_i", Components::space, Terms::momenta},
             {"centre_of_mass", "sum m_i x_i/M - P t/M", Components::space, Terms::centre_of_mass}};
   }
-  /// @param usual the frame of a start that the scenario does not give itself
+  /// @param usual the frame of a start that is not given by the scenario
   static OptionInfo frame_key(const char* usual) {
-    return {.name = "frame",
-            .default_value = usual,
-            .meaning = "barycentric: the centre of mass of the start is moved to the origin, to rest",
-            .type = OptionType::word,
-            .words = {StartFrames::given, StartFrames::barycentric},
-            .condition = "of a start by initial: given"};
+    return {
+        .name = "frame",
+        .default_value = usual,
+        .meaning =
+            "barycentric: move the centre of mass of the start to the origin, at rest; given: leave the start as it is",
+        .type = OptionType::word,
+        .words = {StartFrames::given, StartFrames::barycentric},
+        .condition = "for a start by initial the default is given"};
   }
 
-  /// Of d = (sum_{i<j} u_ij^-3)^(-1/6), u = r^2 + softening^2: the distance of the nearest two bodies, as they would be
-  /// alone, and smooth where another pair becomes the nearest one. Their least distance is at most (N (N - 1)/2)^(1/6)
-  /// d.
+  /// The logarithmic rate of d = (sum_{i<j} u_ij^-3)^(-1/6), u = r^2 + softening^2. d approximates the distance of the
+  /// closest two bodies and is smooth if another pair becomes the closest. The smallest distance is at most (N (N -
+  /// 1)/2)^(1/6) d.
   template <class S>
   S distance_rate(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v) const {
     S approach(0);
@@ -120,8 +122,8 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
     return particles() > 1 ? S(approach / closeness) : S(0);
   }
 
-  /// q_i <- q_i - sum m q/M, p_i <- p_i - m_i P/M. Done twice: what rounding leaves of the first is taken by the
-  /// second.
+  /// q_i <- q_i - sum m q/M, p_i <- p_i - m_i P/M. This is done twice: the second pass removes the rounding errors of
+  /// the first.
   void to_barycentre(Vector<R, dynamic>& q, Vector<R, dynamic>& p) const {
     const std::vector<R>& masses = model().masses;
     const R& total_mass = model().total_mass;

@@ -1,9 +1,9 @@
 // Exact motion in the potential V(r) = -k/r on every conic, by universal variables: with dt = r ds, kappa = k/mu,
 // beta = 2 kappa/r0 - v0^2 and eta = q0 . v0
 //     r(s) = r0 G0 + eta G1 + kappa G2,   t(s) = r0 G1 + eta G2 + kappa G3,   G_n = s^n c_n(beta s^2),
-// where c_n are Stumpff's functions.   [Danby1988, Sect. 6.9; ReinTamayo2015]   Nothing distinguishes ellipse,
+// where c_n are Stumpff's functions.   [Danby1988, Sect. 6.9; ReinTamayo2015] The same formulas hold for ellipse,
 // parabola and hyperbola; k < 0 repels. On a line (l = 0) the motion continues after the collision as the limit of
-// narrow ellipses does: it returns.
+// narrow ellipses, that is, it returns.
 #pragma once
 
 #include <limits>
@@ -64,7 +64,7 @@ struct UniversalMotion {
 /// s at time t, at most half a period from 0. t(s) is monotone.
 inline long double universal_variable(const UniversalMotion& motion, long double t) {
   using L = long double;
-  // The bracket: a whole period of s, or doubling, beginning where no exponential has grown yet.
+  // The bracket: a whole period of s, or doubling from a value at which no exponential is large yet.
   const L sign = t < 0 ? -1 : 1;
   L low = 0;
   L high = sign * 2 * pi_value<L>() / sqrt(motion.beta);
@@ -78,7 +78,7 @@ inline long double universal_variable(const UniversalMotion& motion, long double
   }
   const L s =
       bracketed_root([&](L x) { return motion.time(x) - t; }, low, high, motion.time(low) - t, motion.time(high) - t);
-  // The bracket leaves up to two units of s, of which a step of Newton keeps what the rounding of t(s) leaves.
+  // The bracket has a width of up to two units of s; a step of Newton reduces the error to the rounding of t(s).
   const L step = (motion.time(s) - t) / motion.radius(s);
   return std::abs(step) <= 4 * std::numeric_limits<L>::epsilon() * std::abs(s) ? s - step : s;
 }
@@ -93,7 +93,8 @@ inline Start<long double, 2> universal_kepler_flow(long double k, long double ma
   const R beta = R(2) * kappa / r0 - (v0[0] * v0[0] + v0[1] * v0[1]);
   if (beta > R(0)) {
     const R period = R(2) * pi_value<R>() * kappa / (beta * sqrt(beta));
-    if (abs(t) * R(std::numeric_limits<double>::epsilon()) > period / R(4)) {  // a rounding of t is all of a phase
+    if (abs(t) * R(std::numeric_limits<double>::epsilon()) >
+        period / R(4)) {  // the rounding of t is as large as the phase
       constexpr R none = std::numeric_limits<R>::quiet_NaN();
       return {{none, none}, {none, none}};
     }

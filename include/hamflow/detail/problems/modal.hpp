@@ -23,7 +23,7 @@ class ModalSolution {
     solved_ = normal_modes(m.data(), rows_of(stiffness).data(), N, eigenvalues_.begin(), vectors_.data());
   }
 
-  /// False when M is not positive or an entry is not finite.
+  /// False if M is not positive definite or an entry is not finite.
   bool solved() const { return solved_; }
 
   /// lambda = omega^2, ascending.

@@ -1,7 +1,7 @@
 // N particles with forces between all pairs, in the plane or in space: H = sum |p_i|^2/(2 m_i) + sum_{i<j} V_ij(r_ij).
-// q = [x1, y1(, z1), x2, ...], particle by particle. What a pair gives is the model's: gravity.hpp, gas_system.hpp. The
-// force of a pair is computed once and given to both with opposite signs, so that the total momentum is kept to the
-// last rounding of the sums.
+// q = [x1, y1(, z1), x2, ...], particle by particle. The model computes the contribution of a pair: gravity.hpp,
+// gas_system.hpp. The force of a pair is computed once and added to both particles with opposite signs, so that the
+// total momentum is conserved to the rounding of the sums.
 #pragma once
 
 #include <array>
@@ -41,12 +41,12 @@ struct Particles {
 ///   energy(u, i, j)     V_ij
 ///   pull(u, i, j)       c of the force -c d on i, c d on j
 ///   pull_times(factor)  a function of (u, i, j): factor times c, for kicks of the lattice
-///   bend(u, i, j)       a function of (d, k, l): the entry k, l of d^2 V_ij/dq_i^2
+///   pair_hessian(u, i, j)       a function of (d, k, l): the entry k, l of d^2 V_ij/dq_i^2
 ///   strength(i, j), radial_law(u)   as RadialForces has them, u = r^2
 ///   turns_freely(), moves_freely()  whether angular, and linear, momentum is conserved
 ///   sums_by_rows        whether V is the sum of the sums over j, or one sum
-/// and, where it can, bend_times(factor, u, i, j): the same as `bend`, for kicks of the lattice; and near, a shared
-/// NearPairs or null: pairs that it leaves out have energy, pull and kick 0.
+/// and, where it can, pair_hessian_times(factor, u, i, j): the same as `pair_hessian`, for kicks of the lattice; and
+/// near, a shared NearPairs or null: pairs that it leaves out have energy, pull and kick 0.
 template <class R, class M>
 class PairSystem {
  public:
@@ -103,8 +103,8 @@ class PairSystem {
   }
 
   // As PairwiseForces, for the lattice: each contribution is rounded, and integers are summed. Row i holds the pairs i,
-  // j > i. Every operation is symmetric in i and j or changes its sign, so that numbering the particles otherwise
-  // changes no bit of a contribution.
+  // j > i. Every operation is symmetric or antisymmetric in i and j, so that another numbering of the particles does
+  // not change a bit of a contribution.
   std::size_t pair_rows() const { return particles(); }
   std::size_t pairs_in_row(std::size_t i) const { return particles() - 1 - i; }
   template <class F, class Difference, class Sink>
@@ -112,7 +112,7 @@ class PairSystem {
                   Sink& sink) const {
     pair_kicks(factor, difference, first, last, sink, AllPairs{particles()});
   }
-  /// The same without the pairs that `near` leaves out.
+  /// The same without the pairs that `near` omits.
   template <class F, class Difference, class Sink, class Near>
   void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last, Sink& sink,
                   const Near& near) const {
@@ -129,7 +129,7 @@ class PairSystem {
     model.near;
   }
   { return model_->near ? model_->near->at(position, team) : NearPairs::Turn(particles()); }
-  /// The same of -third V''(q) v besides.
+  /// The same with -third V''(q) v added.
   template <class F, class Difference, class Sink>
   void pair_gradient_kicks(const F& factor, const F& third, const Vector<F, dynamic>& v, const Difference& difference,
                            std::size_t first, std::size_t last, Sink& sink) const requires
@@ -173,8 +173,8 @@ class PairSystem {
     return model_->radial_law(u);
   }
 
-  /// How many numbers angular momentum, linear momentum and centre of mass have, as far as the model leaves them. In
-  /// place: they are asked for at every step.
+  /// The numbers of components of angular momentum, linear momentum and centre of mass, as far as the model conserves
+  /// them. Stored in place, because they are needed at every step.
   struct Sizes {
     std::array<std::size_t, 3> entry{};
     std::size_t count = 0;
@@ -301,10 +301,10 @@ class PairSystem {
     const std::size_t n = space();
     S d[3]{};
     const S u = square_of(q, i, j, d);
-    const auto bend = model_->bend(u, i, j);
+    const auto pair_hessian = model_->pair_hessian(u, i, j);
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t l = 0; l < n; ++l) {
-        const S entry = bend(d, k, l);
+        const S entry = pair_hessian(d, k, l);
         h[i * n + k][i * n + l] += entry;
         h[j * n + k][j * n + l] += entry;
         h[i * n + k][j * n + l] -= entry;

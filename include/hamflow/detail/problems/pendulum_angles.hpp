@@ -1,6 +1,6 @@
 // Absolute angles (each from the vertical) and relative ones (the second from the first rod) of a double pendulum.
-// [Gross1999, Sect. 3]   Positions change by A = [[1, 0], [1, 1]], absolute = A relative, momenta by its inverse
-// transpose, so that p^T dq stays: the change is canonical.
+// [Gross1999, Sect. 3] Positions change by A = [[1, 0], [1, 1]], absolute = A relative, momenta by its inverse
+// transpose, so that p^T dq is unchanged and the transformation is canonical.
 #pragma once
 
 #include "hamflow/core/problem_info.hpp"

@@ -1,8 +1,8 @@
-// What a central potential V(r) is made of: a class template over the type of its parameters, written as a function of
-// u = r^2, W(u) = V(sqrt u). Every potential has
+// The interface of a central potential V(r): a class template over the type of its parameters, as a function of u =
+// r^2, W(u) = V(sqrt u). Every potential has
 //     Potential(const Parameters<R>&), info()      name, formula, reference, parameters, starts, region, example
 //     value(u) = W(u),   slope(u) = 2 W'(u) = V'(r)/r,   derivatives(u) = {slope, 4 W''(u)}
-// The functions below are optional; without them what their comments name is missing, or computed otherwise.
+// The functions below are optional; without them their results are missing or computed in another way.
 #pragma once
 
 #include <functional>
@@ -24,20 +24,20 @@ struct CentralDerivatives {
 inline StartInfo start_by_energy(Texts example) {
   return {.kind = "",
           .keys = {"energy", "angular_momentum"},
-          .meaning = "any orbit, at pericentre on the x-axis (circles on the y-axis)",
+          .meaning = "any orbit, starting at pericentre on the x-axis (circles on the y-axis)",
           .example = std::move(example)};
 }
 
 namespace potentials {
 
-/// slope(u, factor): factor times the slope, where the factor meets the constants of the potential, not what has just
-/// been computed from u. Default: the product.
+/// slope(u, factor): factor times the slope, with the factor multiplied into the constants of the potential, which
+/// shortens the chain of operations. Default: the product.
 template <class V, class S, class F>
 concept HasScaledSlope = requires(const V& potential, const S& u, const F& factor) {
   potential.slope(u, factor);
 };
-/// Static, takes_two = true: `derivatives` takes Two (detail/core/two.hpp) as well as numbers, having no branches and
-/// no functions but roots. Newton in the plane is faster for it. Default: false.
+/// Static, takes_two = true: `derivatives` accepts Two (detail/core/two.hpp) as well as numbers, and has no branches
+/// and no functions except roots. This makes Newton in the plane faster. Default: false.
 template <class V>
 inline constexpr bool takes_two = requires {
   requires V::takes_two;
@@ -67,7 +67,7 @@ template <class V>
 concept HasExactRadius = requires(const V& potential, double mass, const Vector<double, 2>& x) {
   { potential.exact_radius(mass, x, x) } -> std::same_as<std::function<double(double)>>;
 };
-/// exact(mass, q, p, t): the planar state after time t; std::nullopt where it is not known.
+/// exact(mass, q, p, t): the planar state after time t; std::nullopt if unknown.
 template <class V>
 concept HasExact = requires(const V& potential, long double number, const Vector<long double, 2>& x) {
   { potential.exact(number, x, x, number) } -> std::same_as<std::optional<Start<long double, 2>>>;

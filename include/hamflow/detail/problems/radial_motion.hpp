@@ -1,7 +1,7 @@
 // The radial motion in a central potential, in long double:
 //     (mu/2) r'^2 = E - V_eff(r),   V_eff(r) = V(r) + l^2/(2 mu r^2).   [Gross1999, (2.39), (2.40)]
-// Differences of V_eff are taken from the mean of V'(r)/r between two radii, so that nothing cancels when they are
-// close; r' near a turning point r1 is the square root of (r - r1) times a function that does not vanish there.
+// Differences of V_eff are computed from the mean of V'(r)/r between two radii, so that close radii cause no
+// cancellation; r' near a turning point r1 is the square root of (r - r1) times a function that does not vanish there.
 #pragma once
 
 #include <limits>
@@ -28,7 +28,7 @@ class RadialMotion {
   using R = long double;
   static constexpr R infinity = std::numeric_limits<R>::infinity();
 
-  /// @param rounding relative accuracy of the components of q and p; what is smaller counts as nothing
+  /// @param rounding relative accuracy of the components of q and p; smaller quantities count as 0
   RadialMotion(const Potential& potential, R mass, const Vector<R, 2>& q, const Vector<R, 2>& p, R rounding)
       : potential_(potential), mass_(mass), rounding_(rounding) {
     r_ = hypot(q[0], q[1]);
@@ -59,8 +59,8 @@ class RadialMotion {
   R angular_momentum() const { return l_; }
   R radius() const { return r_; }
   R radial_velocity() const { return radial_velocity_; }
-  R r_min() const { return r_min_; }               // 0 where the centre is reached
-  R r_max() const { return r_max_; }               // infinity where the motion is unbounded
+  R r_min() const { return r_min_; }               // 0 if the centre is reached
+  R r_max() const { return r_max_; }               // infinity if the motion is unbounded
   bool circular() const { return circular_; }      // to rounding of the state
   bool marginal() const { return marginal_; }      // E is the limit of V_eff at infinity, to rounding: parabolic
   bool separatrix() const { return separatrix_; }  // a turning point takes infinite time: a maximum of V_eff
@@ -79,7 +79,7 @@ class RadialMotion {
     const auto d = potential_.derivatives(u);
     return d.slope + u * d.curvature + (l_ == R(0) ? R(0) : R(3) * l_ * l_ / (mass_ * u * u));
   }
-  /// The sum of the sizes of its terms: what a rounding of the state changes is about so many roundings.
+  /// The sum of the sizes of its terms, to estimate the effect of a rounding of the state.
   R size_of_curvature(R r) const {
     const R u = r * r;
     const auto d = potential_.derivatives(u);
@@ -91,7 +91,7 @@ class RadialMotion {
   /// r'^2/(r - r_min)
   R from_inside(R r) const {
     if (r <= R(2) * r_min_) return positive(-(r + r_min_) / mass_ * mean_effective_slope(r, inner_));
-    // r^2 (E - V) as a product: l^2/r_min^2 and V(r_min) do not enter, which cancel far out on a long orbit.
+    // r^2 (E - V) as a product, without l^2/r_min^2 and V(r_min), which cancel far out on a long orbit.
     const R value = potential_.value(r * r);
     const R mean_slope = R(2) * (value - inner_.value) / ((r - r_min_) * (r + r_min_));
     return positive((r + r_min_) * (R(2) / mass_) * (energy_ - value - r_min_ * r_min_ * mean_slope / R(2)) / (r * r));
@@ -108,7 +108,7 @@ class RadialMotion {
  private:
   static R positive(R x) { return x > R(0) ? x : R(0); }
 
-  /// A radius and V there, kept because differences are taken from it again and again.
+  /// A radius and V there, kept because many differences refer to it.
   struct Reference {
     R r = 0;
     R value = 0;
@@ -128,7 +128,7 @@ class RadialMotion {
     for (std::size_t i = 0; i < rule.c.size(); ++i) mean += rule.b[i] * potential_.slope(R(v + rule.c[i] * distance));
     return mean;
   }
-  /// The same of V_eff.
+  /// The same for V_eff.
   R mean_effective_slope(R r, const Reference& s) const {
     const R slope = mean_slope(r, s);
     return l_ == R(0) ? slope : slope - l_ / (r * r) * (l_ / (s.r * s.r)) / mass_;
@@ -170,9 +170,10 @@ class RadialMotion {
     const R root = bracketed_root([this](R r) { return steepness(r).value; }, a.r, b.r, a.value, b.value);
     extrema_.push_back({root, (b.value > R(0)) == (b.r > a.r)});
   }
-  /// The extrema of V_eff within a factor of 2^300 of the radius, sought the more closely the nearer (steps of 19 % up
-  /// to a factor of 256). Where r^3 V' is monotone between neighbouring points there is at most one; where it has an
-  /// extremum the interval is cut there. What r^3 V' does twice within one step stays unseen: sums of powers do not.
+  /// The extrema of V_eff within a factor of 2^300 of the radius, searched with a finer grid near it (steps of 19 % up
+  /// to a factor of 256). If r^3 V' is monotone between neighbouring points there is at most one; at an extremum of r^3
+  /// V' the interval is divided. Two extrema of r^3 V' within one step are not found, but sums of powers do not have
+  /// these.
   void find_extrema() {
     const R center = r_ > R(0) ? r_ : R(1);
     const R fine = exp(log(R(2)) / R(4));
@@ -296,7 +297,7 @@ class RadialClock {
   From from() const { return from_; }
   /// x at the other end.
   R end() const { return end_; }
-  /// Whether every integral so far has come to rest: E - V_eff is no rounding anywhere on the way.
+  /// Whether every integral so far has converged, that is, E - V_eff is above rounding everywhere on the path.
   bool settled() const { return settled_; }
   /// @param to_end end() - x, to its own relative precision
   At at(R x, R to_end) const {
@@ -327,7 +328,7 @@ class RadialClock {
   }
   At at(R x) const { return at(x, end_ - x); }
 
-  /// The x of the state. From the radial velocity, which near an apsis says more than the radius.
+  /// The x of the state, from the radial velocity, which near an apsis is more accurate than the radius.
   R start() const {
     const R r = motion_.radius();
     const R speed = abs(motion_.radial_velocity());
@@ -368,7 +369,7 @@ class RadialClock {
                R(1))
         .value;
   }
-  /// x at a given time, not a number where it is not reached (infinity in finite time).
+  /// x at a given time; NaN if it is not reached (infinity in finite time).
   R when(R time_since_apsis) const {
     if (!(time_since_apsis > R(0))) return R(0);
     R low(0);

@@ -1,4 +1,4 @@
-// An expression of a state (detail/run/state_expression.hpp) in the digits of a run beyond double.
+// An expression of a state (detail/run/state_expression.hpp) in the digits of a run with more digits than double.
 #pragma once
 
 #include <functional>

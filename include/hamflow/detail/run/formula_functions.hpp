@@ -101,7 +101,7 @@ class FormulaFunctions final : public Functions<S> {
       with_mass.push_back(zeros_like(q));
       inverse_mass_times(row, with_mass.back());
     }
-    V right = model_->template constraint_bends<S>(q, v);
+    V right = model_->template constraint_curvatures<S>(q, v);
     for (std::size_t k = 0; k < right.size(); ++k) right[k] = right[k] - dot(with_mass[k], dq);
     const V lambda = multipliers(rows, with_mass, right);
     for (std::size_t k = 0; k < lambda.size(); ++k) {

@@ -1,4 +1,4 @@
-// The keys of [problem] with which a Hamiltonian, or a potential, is typed.
+// The keys of [problem] for a typed Hamiltonian or potential.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace hamflow {
 
 /// The keys of the problem `formula`, in the order in which they are shown.
 const std::vector<OptionInfo>& formula_options();
-/// How constraints are kept.
+/// The option that chooses how constraints are kept.
 const OptionInfo& constraint_form_option();
 /// The keys of `central-force` with a typed potential.
 const std::vector<OptionInfo>& central_formula_options();
-/// What a formula may be made of, in some sentences.
+/// The syntax of formulas, in a few sentences.
 const std::vector<std::string>& formula_language();
 
 }  // namespace hamflow

@@ -1,4 +1,5 @@
-// Quantities wanted at *every* step are a probe, a template argument of the step loop. `NoProbe` compiles to nothing.
+// A probe computes quantities at *every* step. It is a template argument of the step loop; `NoProbe` compiles to
+// nothing.
 #pragma once
 
 #include <limits>
@@ -21,7 +22,7 @@ struct InvariantsOf<P, R> {
       std::declval<const VectorOf<P, R>&>(), std::declval<const VectorOf<P, R>&>(), std::declval<const R&>()));
 };
 
-/// How many numbers each invariant has; one each unless the problem gives other sizes.
+/// The number of components of each invariant; one each unless the problem gives other sizes.
 template <class P>
 std::vector<std::size_t> invariant_sizes(const P& problem) {
   if constexpr (HasInvariantSizes<P>) {
@@ -31,15 +32,14 @@ std::vector<std::size_t> invariant_sizes(const P& problem) {
     using Values = typename InvariantsOf<P, RealOf<P>>::type;
     static_assert(
         requires { typename std::integral_constant<std::size_t, Values::size()>; },
-        "hamflow: a problem whose number of invariants is known at run time only has to give their sizes");
+        "hamflow: a problem whose number of invariants is known only at run time must define invariant_sizes()");
     return std::vector<std::size_t>(Values::size(), 1);
   } else {
     return {};
   }
 }
 
-/// The problem with parameters in double, whose description stands for those of all number types: it is long to
-/// compile.
+/// The problem with parameters in double. Its info() serves all number types, because it takes long to compile.
 template <class P>
 struct InDouble {
   using type = P;
@@ -55,7 +55,7 @@ struct InDouble<Family<R, Part>> {
   using type = Family<double, Part>;
 };
 
-/// A problem's name with its choices.
+/// The name of a problem with its variant.
 template <class P>
 std::string problem_label() {
   if constexpr (!std::is_same_v<P, typename InDouble<P>::type>) {
@@ -71,7 +71,7 @@ std::string problem_label() {
 }
 }  // namespace detail
 
-/// Watches nothing.
+/// Computes nothing.
 struct NoProbe {
   template <class P, class R, std::size_t N>
   void start(const P&, const Vector<R, N>&, const Vector<R, N>&, const R&) {}
@@ -81,9 +81,8 @@ struct NoProbe {
   }
 };
 
-/// The largest deviation of the energy and of each invariant from its start; of an invariant with several components,
-/// the length of the deviation. And the largest kinetic part of H, beside which an error of the energy is large or
-/// small whatever constant H has.
+/// The largest deviation of the energy and of each invariant from its start (for several components, the length of the
+/// deviation), and the largest kinetic part of H, which is the scale of energy errors whatever constant H contains.
 template <class P, class R>
 class ConservationProbe {
  public:
@@ -101,7 +100,7 @@ class ConservationProbe {
       if constexpr (requires { problem.residual_groups(); }) start_residuals(problem);
     }
   }
-  /// False where the energy is not finite. It is inlined with all that it calls into the loop over steps, where its
+  /// Returns false if the energy is not finite. It is inlined with all its calls into the loop over steps, so that its
   /// square roots and divisions overlap with those of the step.
   template <std::size_t N>
   [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
@@ -124,7 +123,7 @@ class ConservationProbe {
   }
   R initial_energy() const { return initial_energy_; }
   R worst_energy_error() const { return larger(worst_energy_, larger(above_, below_)); }
-  /// The least and the largest H - H0 since restart_range(), the state there included; since start() before.
+  /// The smallest and the largest H - H0 since restart_range(), or since start() before that, the state there included.
   R least_difference() const { return R(R(0) - below_); }
   R largest_difference() const { return above_; }
   /// @param difference H - H0 of the present state
@@ -133,15 +132,15 @@ class ConservationProbe {
     above_ = difference;
     below_ = -difference;
   }
-  /// How much of H the motion has exchanged: the largest kinetic part so far. A run whose error is more than a
-  /// quarter of that is no motion, and only the kinetic part at the start counts: where p . dH/dp, twice T, has blown
-  /// up, the error is half of it.
+  /// The energy that the motion exchanges: the largest kinetic part so far. If the error is more than a quarter of it,
+  /// the result is meaningless and only the kinetic part at the start counts: if p . dH/dp, twice T, has blown up, the
+  /// error is half of it.
   R exchanged_energy() const {
     const bool is_motion = R(4) * worst_energy_error() <= most_kinetic_;
     return is_motion && most_kinetic_ <= std::numeric_limits<R>::max() ? most_kinetic_ : initial_kinetic_;
   }
   const Invariants& initial() const { return initial_; }
-  /// Of the k-th invariant.
+  /// The largest deviation of the k-th invariant.
   R worst(std::size_t k) const { return worst_[k]; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -151,7 +150,7 @@ class ConservationProbe {
   }
 
  private:
-  /// Residuals of constraints are watched for their size, at the start, too, and not for their change.
+  /// Begins with the residuals of constraints. Their size is measured, also at the start, and not their change.
   void start_residuals(const P& problem) {
     const auto& sizes = problem.invariant_sizes();
     std::size_t i = 0;
@@ -192,10 +191,10 @@ class ConservationProbe {
   }
 
   R initial_energy_{};
-  R worst_energy_{};     // before the present range
-  R above_{};            // largest H - H0 of the present range
+  R worst_energy_{};     // before the current range
+  R above_{};            // largest H - H0 of the current range
   R below_{};            // largest H0 - H of it
-  R initial_kinetic_{};  // size of the kinetic part
+  R initial_kinetic_{};  // size of the kinetic part at the start
   R most_kinetic_{};
   Invariants initial_{};
   Invariants worst_{};

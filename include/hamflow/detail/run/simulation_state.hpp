@@ -1,5 +1,5 @@
-// What a simulation is beside its method: problem, state, clock and probe, and what can be asked of them. Compiled once
-// for each problem, arithmetic and probe, and not for each method too.
+// The part of a simulation that does not depend on its method: problem, state, clock and probe. It is compiled once for
+// each problem, arithmetic and probe, and not for each method.
 #pragma once
 
 #include <cstring>
@@ -20,12 +20,12 @@
 namespace hamflow {
 
 namespace detail {
-// The messages of saving and restoring, compiled once and not in every simulation.
+// The messages of save and restore, compiled once and not in every simulation.
 inline std::string arithmetic_kind(std::string_view name, int digits) {
   return std::string(name) + " in " + std::to_string(digits) + " bits";
 }
 [[gnu::noinline]] inline void expect_same_kind(const std::string& found, const std::string& wanted) {
-  if (found != wanted) throw Error("the saved state is that of " + found + ", not of " + wanted);
+  if (found != wanted) throw Error("the saved state belongs to " + found + ", not to " + wanted);
 }
 [[gnu::noinline]] inline void expect_same_size(std::size_t found, std::size_t wanted) {
   if (found != wanted) {
@@ -33,7 +33,7 @@ inline std::string arithmetic_kind(std::string_view name, int digits) {
   }
 }
 [[gnu::noinline]] inline void expect_same_step(bool same) {
-  if (!same) throw Error("the saved state was reached with another step length");
+  if (!same) throw Error("the saved state belongs to another step length");
 }
 }  // namespace detail
 
@@ -52,7 +52,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   [[gnu::cold]] Outcome look_ahead(const std::string& time, Frame& frame) const final {
     const Real t = evaluate_number<Real>(time);
     const Real part = t - SimulationState::time();
-    if (abs(part) <= 4 * std::numeric_limits<Real>::epsilon() * abs(t)) {  // t_n itself is a rounded product
+    if (abs(part) <= 4 * std::numeric_limits<Real>::epsilon() * abs(t)) {  // t_n is a rounded product
       look(frame);
       return Outcome::done;
     }
@@ -69,7 +69,8 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
 
   std::vector<std::byte> bits() const final {
     Writer ar;
-    for (std::size_t i = 0; i < z_.q.size() - clocks_of(problem_); ++i) ar(z_.q[i]);  // clocks are not of the motion
+    for (std::size_t i = 0; i < z_.q.size() - clocks_of(problem_); ++i)
+      ar(z_.q[i]);  // clocks are not part of the motion
     for (std::size_t i = 0; i < z_.p.size(); ++i) ar(z_.p[i]);
     return ar.take();
   }
@@ -172,7 +173,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       return 0;
     }
   }
-  /// Of constraints, which are behind the invariants.
+  /// Removes the residuals of constraints, which come after the invariants.
   void drop_residuals([[maybe_unused]] std::vector<double>& invariants) const {
     if constexpr (requires { problem_.residual_groups(); }) {
       const std::vector<std::size_t>& sizes = problem_.invariant_sizes();
@@ -183,16 +184,16 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   }
   bool varies_steps() const { return density_.has_value(); }
   const Monitor& monitor() const { return *monitor_; }
-  /// Equal steps are counted, others are added up.
+  /// Equal steps are counted; lengths of varying steps are summed.
   Real time() const { return density_ ? density_->time() : clock_.time(); }
   Real next_length() const { return density_ ? density_->length() : clock_.step_length(); }
-  /// The time after so many steps from here on, or after one of length h where steps vary.
+  /// The time after the given number of further steps, or after one step of length h if steps vary.
   Real time_after(std::int64_t steps, const Real& h) const {
     return density_ ? Real(density_->time() + h) : clock_.time_after(steps);
   }
-  /// The coordinates that carry the time, as they are after so many steps from here on, or after one of length h where
-  /// steps vary. On the lattice `span` is what a step adds to them, to its last unit; times of varying steps are summed
-  /// there by the method alone, as every sum that has to come back is.
+  /// Sets the coordinates that hold the time to their values after the given number of further steps, or after one step
+  /// of length h if steps vary. On the lattice `span` is the exact increment of a step; times of varying steps are
+  /// summed by the method there, so that they can be reversed exactly.
   void set_clock_after(std::int64_t steps, const Real& h, PhasePoint<A, n>& z) const {
     if (density_) {
       if constexpr (!A::exact_undo) set_clock(z, density_->time_in_words_after(h));
@@ -203,7 +204,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       set_clock(z, clock_.begin_after(steps), clock_.passed());
     }
   }
-  /// A start without the coordinates that carry the time begins at the time of the clock, one with them at theirs.
+  /// A start without the coordinates that hold the time begins at the time of the clock; otherwise at the given time.
   [[gnu::cold]] void begin_clock(const Vector<Real, n>& q, const Vector<Real, n>& p) {
     const auto whole = [&](const Vector<Real, n>& x) {
       Vector<Real, n> all = zeros<Real, n>(problem_.size());
@@ -222,11 +223,11 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     density_.emplace(clock_.step_length(), clock_.time());
   }
   Real monitored_rate() const { return monitor_->rate(z_.positions(), z_.momenta()); }
-  /// Why there is no next step; empty where there is one.
+  /// Why there is no next step; empty if there is one.
   [[gnu::cold]] std::string unusable_density() const {
     if (!density_ || density_->is_usable()) return {};
     return "the density of steps became " + shortest(static_cast<double>(density_->density())) +
-           ": the lengths that the monitor asks for change too much within a step";
+           ": the step length that the monitor gives changes too much within one step";
   }
 
   [[gnu::cold]] static Vector<Real, dynamic> values(const auto& x) {
@@ -234,7 +235,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     for (std::size_t i = 0; i < x.size(); ++i) all[i] = x[i];
     return all;
   }
-  /// The state after one step of length `part`, which is at time t.
+  /// Fills `frame` with the state after one step of length `part`, at time t.
   virtual Outcome show_after(const Real& part, const Real& t, Frame& frame) const = 0;
 
   [[gnu::noinline]] void show(const PhasePoint<A, n>& z, const Real& time, Frame& frame) const {
@@ -275,7 +276,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     }
   }
 
-  /// What may be restored here: the format's version, problem, method and arithmetic.
+  /// The kind of state that can be restored here: version of the format, problem, method and arithmetic.
   [[gnu::cold]] std::string kind() const {
     const std::string arithmetic = detail::arithmetic_kind(A::name, std::numeric_limits<Real>::digits);
     const std::string rest = ", " + method().name + ", " + arithmetic;
@@ -291,7 +292,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     ar(z_, clock_, probe_, initial_energy_, scale_);
     if (density_) ar(*density_);
   }
-  /// What was saved, but for the method: read as a whole before anything here changes.
+  /// The saved state except the method. It is read completely before anything changes.
   struct Saved {
     PhasePoint<A, n> z;
     StepClock<Real> clock;
@@ -329,8 +330,8 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   StepClock<Real> clock_;
   Real initial_energy_{};
   Real scale_{};
-  typename A::Stored span_of_clock_{};     // on the lattice, while time runs backwards
-  std::optional<StepDensity<A>> density_;  // of reversible steps, with what decides their lengths
+  typename A::Stored span_of_clock_{};     // on the lattice, while the time runs backwards
+  std::optional<StepDensity<A>> density_;  // for reversible steps of varying length
   std::shared_ptr<const Monitor> monitor_;
 };
 

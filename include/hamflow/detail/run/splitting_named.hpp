@@ -1,4 +1,4 @@
-// The table of a splitting method by name, for those who run its actions in a way of their own: lanes, tangent vectors.
+// The table of a splitting method by name, for code that runs its actions itself: lanes, tangent vectors.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// None where the method is no splitting with kicks and drifts alone. @throws Error when there is no such method
+/// nullopt if the method is not a splitting of only kicks and drifts. @throws Error if there is no such method
 std::optional<AnySplitting> splitting_named(const std::string& name);
 
 }  // namespace hamflow

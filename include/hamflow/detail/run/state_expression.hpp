@@ -1,5 +1,5 @@
-// An expression of a state: "atan2(y, x)", "x*p_y - y*p_x", "q1 - cos(t)". It knows the coordinates and momenta of a
-// problem by their names, the parameters with their values, and the time t. Observables and sections are made of them.
+// An expression of a state: "atan2(y, x)", "x*p_y - y*p_x", "q1 - cos(t)". It may contain coordinates and momenta of a
+// problem by name, parameters, and the time t. Observables and sections use such expressions.
 #pragma once
 
 #include <memory>
@@ -12,21 +12,21 @@
 
 namespace hamflow {
 
-/// A value, whose copies share what was read.
+/// An expression with value semantics; copies share the parsed text.
 class StateExpression {
  public:
   /// @param parameters complete   @param size of q
-  /// @throws Error at the column where the text makes no sense, with the names that are known
+  /// @throws Error with the column of a syntax error or of an unknown name, and the known names
   StateExpression(const std::string& text, const ProblemEntry& problem, const Texts& parameters, std::size_t size);
 
-  /// In double, whatever the arithmetic of the run.
+  /// The value in double, whatever the arithmetic of the run.
   double operator()(const Frame& frame) const;
   const std::string& text() const;
-  /// Whether the k-th number of q, then of p, decides its value.
+  /// Whether the value depends on the k-th number of (q, p).
   bool uses(std::size_t k) const;
   bool uses_time() const;
-  /// Appends what computes it, with the same bits, to a program. @param state the numbers of q, then of p
-  /// @return the value; nothing where it uses the time
+  /// Appends operations that compute it, with the same bits, to a program. @param state the numbers of q, then of p
+  /// @return the value; nullopt if it uses the time
   std::optional<Operand> append_to(Program& program, std::span<const Operand> state) const;
 
  private:
@@ -34,7 +34,7 @@ class StateExpression {
   std::shared_ptr<const Read> read_;
 };
 
-/// A name for an expression, as an observable has.
+/// An expression with a name, such as an observable.
 struct NamedExpression {
   std::string name;
   StateExpression expression;

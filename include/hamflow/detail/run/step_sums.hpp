@@ -1,5 +1,5 @@
-// Sums of expressions over every step. They keep what they lose, so that the mean of 10^9 steps has the digits of the
-// values; whoever adds, an observer or a recorded step, adds with the same bits.
+// Sums of expressions over every step, with compensation for rounding, so that the mean of 10^9 steps has the digits of
+// the values. Observers and recorded steps add with the same bits.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace hamflow {
 
-/// An unevaluated sum of two numbers: what each addition loses is added up beside it.   [Neumaier1974]
+/// An unevaluated sum of two numbers: the rounding errors of all additions are summed separately.   [Neumaier1974]
 struct StepSum {
   double sum = 0;
   double lost = 0;
@@ -28,22 +28,22 @@ struct StepSum {
   }
 };
 
-/// An observer of every step that needs nothing of them but sums: it can be spared the steps, where somebody else adds.
+/// An observer of every step that needs only sums. If the simulation adds them, it is not called at every step.
 class SummedSteps {
  public:
   virtual ~SummedSteps() = default;
   virtual std::span<const NamedExpression> summed() const = 0;
-  /// To add to, one for each of them.
+  /// The sums to add to, one for each expression.
   virtual std::span<StepSum> sums() = 0;
-  /// Instead of the steps up to this state, whose values are in the sums.
+  /// Called instead of the steps up to this state, whose values are in the sums.
   virtual void reach(const Frame& last) = 0;
 };
 
-/// A program that also adds the values of expressions behind each step: two more values for each, a sum and what it
-/// lost.
-/// @param state which outputs are q, then p   @param undone which output is not 0 where a step was left undone, and is
-/// not counted; none: no step is
-/// @return nothing where an expression uses the time
+/// A program that also adds the values of expressions after each step: two more values for each, a sum and its rounding
+/// error.
+/// @param state which outputs are q, then p @param undone the output that is not 0 if the step was not taken and must
+/// not be counted; nullopt: every step is taken
+/// @return nullopt if an expression uses the time
 std::optional<Program> with_sums(const Program& program, std::span<const std::size_t> state,
                                  std::optional<std::size_t> undone, std::span<const NamedExpression> expressions);
 

@@ -1,6 +1,6 @@
-// What walls ask of a simulation: steps in parts, a way back to a mark, and single momenta turned round, in the numbers
-// of the simulation itself. One implementation of walls then serves every problem, method and arithmetic
-// (src/walls/walled_simulation.hpp). What depends on the method too is in in_parts.hpp.
+// The interface of a simulation to walls: partial steps, saving and restoring the state, and changing the sign of
+// single momenta, in the number type of the simulation. One implementation of walls then serves every problem, method
+// and arithmetic (src/walls/walled_simulation.hpp). Functions that also depend on the method are in in_parts.hpp.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace hamflow {
 
-/// to += now - before, of what is evaluated.
+/// to += now - before, for the counts of evaluations.
 inline void add_evaluations(Effort& to, const Effort& now, const Effort& before = {}) {
   to.force += now.force - before.force;
   to.gradient += now.gradient - before.gradient;
@@ -30,47 +30,49 @@ class StepsInParts {
   virtual R present_time() const = 0;
   virtual Vector<R, dynamic> present_positions() const = 0;
   virtual Vector<R, dynamic> present_momenta() const = 0;
-  /// p_i <- -p_i, every bit.
+  /// p_i <- -p_i, exact to every bit.
   virtual void negate_momentum(std::size_t i) = 0;
   virtual void push_momentum(std::size_t i, const R& change) = 0;
   /// q_i <- 2w - q_i.
   virtual void mirror_position(std::size_t i, const R& twice_the_wall) = 0;
-  /// A step has been taken in parts: the probe looks at the state, the clock goes on.
+  /// Completes a step that was taken in parts: updates the probe and advances the clock.
   virtual Outcome complete_step() = 0;
-  /// The present state as one of another time.
+  /// Shows the present state as the state at another time.
   virtual void show_at(const R& time, Frame& frame) const = 0;
 
-  /// Keeps everything as it is now, in one of two places.
-  enum class Place { step, flight };
-  virtual void mark(Place /*place*/) { refuse(); }
-  /// To what was kept, which stays kept.
-  virtual void back(Place /*place*/) { refuse(); }
-  /// The same, but the method goes on counting its work. @return false where it cannot: then nothing was done
-  virtual bool back_counting(Place /*place*/) { return false; }
-  /// z <- Psi_h(z), with no kick, force or guess remembered. Clock and probe stay.
+  /// Saves the present state in one of two places.
+  enum class Place { step, path };
+  virtual void remember_state(Place /*place*/) { refuse(); }
+  /// Restores the saved state, which stays saved.
+  virtual void restore_state(Place /*place*/) { refuse(); }
+  /// The same, but the counts of the method's work are kept. @return false if that is not possible; nothing is done
+  virtual bool restore_state_keeping_effort(Place /*place*/) { return false; }
+  /// z <- Psi_h(z), without kick, force or initial guess from before. Clock and probe do not change.
   virtual Outcome take_part(const R& /*h*/) { refuse(); }
-  /// Where Psi_h leads from the mark of the flight: q, then dH/dp, for as long as nothing else is asked. Nobody moves.
-  /// Null: only take_part knows.
+  /// Evaluates Psi_h from the state saved at Place::path: q, then dH/dp, valid until the next call. The state does not
+  /// change. Null if only take_part can evaluate it.
   virtual const R* see_part(const R& /*h*/) { return nullptr; }
-  /// Goes where see_part has just looked.
+  /// Moves to the state that see_part has just evaluated.
   virtual void take_seen_part() { refuse(); }
-  /// What all parts cost that were ever taken, also those from which there was a way back.
+  /// The work of all parts ever taken, including those after which the state was restored.
   virtual Effort effort_of_parts() const { refuse(); }
-  /// The state was changed: what the method remembers of it is dropped.
+  /// Tells the method that the state was changed, so that it drops its memory of the state.
   virtual void forget() { refuse(); }
-  /// The same where momenta alone were changed.
+  /// The same if only momenta were changed.
   virtual void forget_momenta() { forget(); }
-  /// The same where the state was mirrored in the i-th coordinate, of a force that is its own mirror image.
+  /// The same if the state was mirrored in the i-th coordinate and the force is symmetric under that.
   virtual void forget_mirrored(std::size_t /*i*/) { forget(); }
-  /// What the next step begins with is computed now, where a method keeps it and has forgotten it.
+  /// Computes the quantity that the next step begins with, if the method keeps one and has dropped it.
   virtual void prepare() {}
-  /// Takes recorded steps, and says how many; none where no step is recorded. `bounces` has a number for each side:
-  /// what is bounced within such steps is added there. Without numbers no step bounces, and the first that may is not
-  /// taken.
+  /// Takes recorded steps and returns their number; 0 if no step is recorded. `bounces` has a count for each side, to
+  /// which bounces within such steps are added. If it is empty, recorded steps do not bounce, and the first step that
+  /// might is not taken.
   virtual std::int64_t take_recorded(std::int64_t /*steps*/, std::span<std::int64_t> /*bounces*/) { return 0; }
 
  private:
-  [[noreturn]] static void refuse() { throw std::logic_error("hamflow: this simulation takes no steps in parts"); }
+  [[noreturn]] static void refuse() {
+    throw std::logic_error("hamflow: this simulation does not support partial steps");
+  }
 };
 
 }  // namespace hamflow

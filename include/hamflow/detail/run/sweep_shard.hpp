@@ -11,7 +11,7 @@ struct SweepShard {
   std::size_t count = 1;
 };
 
-/// Thrown where somebody wants to stop while members are read: 10^5 of them take seconds.
+/// Thrown if a stop is requested while members are read, since 10^5 members take seconds.
 struct ReadingStopped {};
 
 }  // namespace hamflow

@@ -16,9 +16,8 @@ inline constexpr CompositionTable kahan_li8{
              "-0.3959038941332375773362315393479389360268", "0.1845396409783157070918325415333754628190",
              "0.2583743876863220472939791099949394718131", "0.2950117236093102988709662402182281129765"},
     .advice = {.purpose = "H = T(p) + V(q): high accuracy over long times",
-               .take = "nine digits and more are wanted of a smooth H = T(p) + V(q), over millions of steps",
-               .avoid =
-                   "T is quadratic with constant mass matrix: rkn8-s19 is more accurate for its forces; few digits "
-                   "do: verlet, stv4; H is not T(p) + V(q): cg takes any H"}};
+               .take = "nine digits or more are needed over millions of steps, for a smooth H = T(p) + V(q)",
+               .avoid = "T is quadratic with constant mass matrix: rkn8-s19 is more accurate for the same number of "
+                        "forces; few digits are enough: verlet, stv4; H is not T(p) + V(q): cg takes any H"}};
 
 }  // namespace hamflow::compositions

@@ -12,9 +12,9 @@ inline constexpr CompositionTable stv4{
     .reference = "Sonnleitner2010, p. 54; Yoshida1990",
     .half = {"1.3512071919596576340476878089714608269219993762171"},
     .closed_half = {"1/(2 - 2^(1/3))"},
-    .advice = {.purpose = "H = T(p) + V(q): more accurate, still simple; three forces a step",
-               .take = "some six digits are wanted of a smooth H = T(p) + V(q)",
-               .avoid = "nine digits and more are wanted: kahan-li8, rkn8-s19; V is not "
+    .advice = {.purpose = "H = T(p) + V(q): more accurate, still simple; three forces per step",
+               .take = "about six digits are needed, for a smooth H = T(p) + V(q)",
+               .avoid = "nine digits or more are needed: kahan-li8, rkn8-s19; V is not "
                         "smooth: verlet; H is not T(p) + V(q): cg takes any H"}};
 
 }  // namespace hamflow::compositions

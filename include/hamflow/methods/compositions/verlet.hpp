@@ -10,8 +10,9 @@ inline constexpr CompositionTable verlet{
     .name = "verlet",
     .order = 2,
     .reference = "Sonnleitner2010, p. 52; HLW2006, Sect. I.1.4",
-    .advice = {.purpose = "H = T(p) + V(q): the first try; the cheapest step, also where V is not smooth",
-               .take = "a relative accuracy of some 1e-4 does, forces are expensive or not smooth, walls are hit",
-               .avoid = "more digits are wanted: stv4, kahan-li8; H is not T(p) + V(q): cg takes any H"}};
+    .advice = {
+        .purpose = "H = T(p) + V(q): try it first; the cheapest step, also if V is not smooth",
+        .take = "a relative accuracy of about 1e-4 is enough, forces are expensive or not smooth, or there are walls",
+        .avoid = "more digits are needed: stv4, kahan-li8; H is not T(p) + V(q): cg takes any H"}};
 
 }  // namespace hamflow::compositions

@@ -1,5 +1,5 @@
-// Yoshida's solution D under its own name: yoshida8 is the same method.   [Yoshida1990, table 2, solution D]
-// Order 8, 15 force evaluations per step, symplectic, symmetric. Digits: those of yoshida8.
+// Yoshida's solution D under its original name; yoshida8 is the same method.   [Yoshida1990, table 2, solution D] Order
+// 8, 15 force evaluations per step, symplectic, symmetric. Digits: those of yoshida8.
 #pragma once
 
 #include "hamflow/methods/compositions/yoshida8.hpp"

@@ -34,9 +34,9 @@ inline constexpr SplittingTable rkn8_s19{
                      "0.02879738210737793063451721602112113578283",
                      "-0.1675408234889466614012682197517651690744",
                      "0.2289620083865401878950990652057648678561"},
-    .advice = {.purpose = "T = p^T M^-1 p/2 with constant M: the highest accuracy for its forces",
-               .take = "all digits of double are wanted of bodies, oscillators, central forces",
+    .advice = {.purpose = "T = p^T M^-1 p/2 with constant M: the highest accuracy per force evaluation",
+               .take = "all digits of double are needed, for bodies, oscillators, central forces",
                .avoid = "T is not quadratic with constant mass matrix: kahan-li8 takes any "
-                        "T(p) + V(q), cg any H; few digits do: verlet, stv4"}};
+                        "T(p) + V(q), cg any H; few digits are enough: verlet, stv4"}};
 
 }  // namespace hamflow::splittings

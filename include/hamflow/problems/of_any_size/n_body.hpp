@@ -19,7 +19,7 @@ class NBody : public Gravity<R> {
             .reference = "HLW2006, (I.2.11)",
             .coordinates = {"x1", "y1", "(z1)", "x2", "..."},
             .parameters = {{.name = "masses",
-                            .meaning = "one for each body",
+                            .meaning = "masses, one for each body",
                             .range = Range::positive,
                             .type = OptionType::list,
                             .required = true},
@@ -27,12 +27,12 @@ class NBody : public Gravity<R> {
                            {"softening", "0", "length", Range::not_negative}},
             .invariants = Gravity<R>::gravity_invariants(),
             .frame = Gravity<R>::frame_key(StartFrames::given),
-            // So soft that encounters, to which three bodies come in time, are no faster than the motion at the start.
+            // The softening is so large that close encounters are not faster than the motion at the start.
             .region = {.parameters = {{"masses", "[1, 0.3, 0.2]"}, {"softening", "0.5"}},
                        .centre = {0, 0, 1, 0, 0, -1.5, 0, -0.1, 0, 0.3, 0.16, 0},
                        .spread = 0.05,
                        .step = 0.02},
-            // A sun with two planets: the bodies of the region would meet after a while.
+            // A sun with two planets; the bodies of the region would have close encounters.
             .example = {.parameters = {{"masses", "[1, 0.001, 0.0005]"}},
                         .q = {0, 0, 1, 0, 0, -1.7},
                         .p = {-0.00038, -0.001, 0, 0.001, 0.00038, 0},
@@ -46,7 +46,7 @@ class NBody : public Gravity<R> {
     return std::to_string(2 * bodies) + " numbers in the plane, " + std::to_string(3 * bodies) + " in space for " +
            std::to_string(bodies) + (bodies == 1 ? " body" : " bodies");
   }
-  /// Which two bodies stand at one point; empty if none do. Without softening the force between them is not defined.
+  /// Which two bodies are at the same point; empty if none are. Without softening the force between them is undefined.
   static std::string refused_start(const Parameters<R>& given, const Vector<R, dynamic>& q) {
     if (given["softening"] > R(0)) return {};
     const std::size_t bodies = given.list("masses").size();

@@ -26,18 +26,17 @@ class LennardJones {
     return {.name = "lennard-jones",
             .formula = "phi(r) = r^-12 - 2 r^-6",
             .reference = "Sonnleitner2010, ch. 1.7",
-            .parameters = {
-                {.name = "epsilon",
-                 .meaning = "depth of 4 epsilon ((sigma/r)^12 - (sigma/r)^6), which it stands for; with a sigma of 1 "
-                            "particles one length apart repel each other, and a lattice of them flies apart",
-                 .range = Range::positive,
-                 .unset = "1 with sigma; without both r^-12 - 2 r^-6",
-                 .example = "1"},
-                {.name = "sigma",
-                 .meaning = "where that potential is 0: of r^-12 - 2 r^-6 at 2^(-1/6)",
-                 .range = Range::positive,
-                 .unset = "1 with epsilon",
-                 .example = "2^(-1/6)"}}};
+            .parameters = {{.name = "epsilon",
+                            .meaning = "depth epsilon of 4 epsilon ((sigma/r)^12 - (sigma/r)^6). With sigma = 1 "
+                                       "particles at distance 1 repel each other, and a lattice of them flies apart",
+                            .range = Range::positive,
+                            .unset = "1 with sigma; without both phi = r^-12 - 2 r^-6",
+                            .example = "1"},
+                           {.name = "sigma",
+                            .meaning = "zero sigma of that potential; for r^-12 - 2 r^-6 it is 2^(-1/6)",
+                            .range = Range::positive,
+                            .unset = "1 with epsilon",
+                            .example = "2^(-1/6)"}}};
   }
 
   /// phi as a function of u = r^2, and its derivatives by u.

@@ -101,7 +101,7 @@ class Hooke {
   }
 
   /// With v = p/mu and F = v v^T - (k/mu) q q^T, which is conserved, q^T (tr F - F) q = (l/mu)^2: the conic
-  /// (2.143)-(2.148) about its centre. Not finite where the orbit does not reach phi.
+  /// (2.143)-(2.148) about its centre. Not finite if the orbit does not reach phi.
   std::function<double(double)> exact_radius(double mass, const Vector<double, 2>& q,
                                              const Vector<double, 2>& p) const {
     const double kappa = -static_cast<double>(k_) / mass;

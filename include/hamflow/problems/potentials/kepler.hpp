@@ -90,8 +90,8 @@ class Kepler {
     return pericentre_start(r_per, l);
   }
 
-  /// r(phi) = (l^2/(mu k))/(1 + eps cos(phi - phi')), (2.112)-(2.118), with eps and phi' from the eccentricity vector
-  /// p x L/(mu k) - q/|q|. Not positive where the orbit does not reach phi.
+  /// r(phi) = (l^2/(mu k))/(1 + eps cos(phi - phi')), (2.112)-(2.118), with eps and phi' from the eccentricity vector p
+  /// x L/(mu k) - q/|q|. Not positive if the orbit does not reach phi.
   std::function<double(double)> exact_radius(double mass, const Vector<double, 2>& q,
                                              const Vector<double, 2>& p) const {
     const double k = static_cast<double>(k_);

@@ -29,24 +29,24 @@ class Power {
         .formula = "V(r) = sum_i a_i r^(n_i + 1)",
         .reference = "Gross1999, Sect. 2.5",
         .parameters = {{.name = "a",
-                        .meaning = "strengths, a number or a list as long as n",
+                        .meaning = "strengths a, a number or a list as long as n",
                         .type = OptionType::number_or_list,
                         .required = true},
                        {.name = "n",
-                        .meaning = "exponents of the force, real, not -1",
+                        .meaning = "exponents n of the force, real numbers other than -1",
                         .type = OptionType::number_or_list,
                         .required = true}},
         .starts = {start_by_energy({{"energy", "0.5"}, {"angular_momentum", "1"}})},
         .region = {
             .parameters = {{"a", "[0.5, -0.5]"}, {"n", "[2, -2.5]"}}, .centre = {1.2, 0.3, -0.2, 0.9}, .step = 0.04}};
   }
-  /// What is wrong with the parameters, as key and message; both empty if nothing is.
+  /// The error of the parameters as key and message; both empty if they are accepted.
   static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
     if (given.list("a").size() != given.list("n").size()) {
-      return {"n", "allowed as many numbers as a has, " + std::to_string(given.list("a").size())};
+      return {"n", "allowed as many numbers as in a, " + std::to_string(given.list("a").size())};
     }
     for (const R& n : given.list("n")) {
-      if (n == R(-1)) return {"n", "allowed any real number but -1 (V would be a logarithm)"};
+      if (n == R(-1)) return {"n", "allowed any real number except -1 (V would be a logarithm)"};
     }
     return {};
   }

@@ -1,15 +1,16 @@
-// The coefficients of an implicit step whose unknowns are averages of the motion along it. With f = J grad H
+// The coefficients of an implicit step whose unknowns are averages of the motion along the step. With f = J grad H
 //     u_i = h sum_l W_il f(y_l),   y_l = (z0 + z1)/2 + sum_j N_lj u_j,   z1 = z0 + sum_j e_j u_j,   i, j < k,  l < s.
 // Energy-conserving elements [Gross1999, (1.34), (1.35); BrugnanoIavernaroTrigiante2010]: u_i = h int P_i f dc are the
-// coefficients of h z' in orthonormal Legendre polynomials, k of them whatever the number s of Gauss points is,
+// coefficients of h z' in orthonormal Legendre polynomials; their number k does not depend on the number s of Gauss
+// points,
 //     W_il = b_l P_i(c_l),   N_l0 = c_l - 1/2,  N_lj = int_0^(c_l) P_j,   e = (1, 0, .. 0).
 // Gauss collocation in stages [HLW2006, II.1.3]: u_i = L_i = h b_i f(Y_i),   Y_i = z0 + sum_j mu_ij L_j,  mu =
 // a_ij/b_j,
 //     W = diag(b),   N_ij = mu_ij - 1/2,   e = (1, .. 1).
-// b_i a_ij + b_j a_ji = b_i b_j says mu_ij + mu_ji = 1, and N is antisymmetric: the upper half is computed, the lower
-// one copied, so that with rounded coefficients the map is symplectic exactly.   [AntonanaMakazagaMurua2017]
+// b_i a_ij + b_j a_ji = b_i b_j means mu_ij + mu_ji = 1, so N is antisymmetric. Only the upper half is computed and the
+// lower half copied, so that the map is exactly symplectic with rounded coefficients.   [AntonanaMakazagaMurua2017]
 //
-// Where H = p^T M^-1 p/2 + V(q) the part of u in q follows from its part in p, and the quadrature of it is exact:
+// If H = p^T M^-1 p/2 + V(q), the part of u in q follows from the part in p, with exact quadrature:
 //     u^q_j = h beta_j M^-1 (omega_j (p0 + p1)/2 + sum_i A_ji u^p_i),   A antisymmetric;
 // elements: beta = 1, omega = e, A_(j,j-1) = xi_j; stages: beta = b, omega = 1, A = N.
 #pragma once
@@ -29,45 +30,45 @@ template <class R>
 struct AverageTable {
   int points = 0;    // s
   int averages = 0;  // k
-  // Matrices are stored such that sums run over neighbours. What is symmetric about the middle of the step is so to the
-  // last bit.
+  // Matrices are stored such that sums run over contiguous entries. Symmetries about the middle of the step are exact
+  // to the last bit.
   std::vector<R> inner;        // N_lj at [j s + l]
   std::vector<R> weight;       // W_il at [l k + i]
-  std::vector<R> unit_weight;  // kappa W_il, see detail::golden
-  bool diagonal = false;       // W is
+  std::vector<R> unit_weight;  // kappa W_il, see detail::golden_ratio
+  bool diagonal = false;       // whether W is diagonal
   std::vector<R> increment;    // e_j
   std::vector<R> scale;        // beta_j
   std::vector<R> middle;       // omega_j
   std::vector<R> coupling;     // A_ij at [i k + j]
-  std::vector<R> next;         // from the averages of a polynomial motion to those of the step after it, at [j k + i]
-  // For the tangents alone, at [l k k + i k + j]
-  std::vector<R> bend;          // W_il dy_l/du_j, dy_l/du_j = e_j/2 + N_lj
-  std::vector<R> natural_bend;  // W_il dq_l/du^p_j, without h M^-1
+  std::vector<R> next;         // maps the averages of a polynomial motion to those of the next step, at [j k + i]
+  // For the Jacobian only, at [l k k + i k + j]
+  std::vector<R> tangent_weights;          // W_il dy_l/du_j, dy_l/du_j = e_j/2 + N_lj
+  std::vector<R> natural_tangent_weights;  // W_il dq_l/du^p_j, without h M^-1
 };
 
 namespace detail {
 
-/// Continued over the next step, P_j grows up to 5.8^j times, and the rounding of u_j with it: Legendre terms from here
-/// on are not continued.
+/// Extrapolated to the next step, P_j grows by up to 5.8^j, and so does the rounding of u_j. Legendre terms from this
+/// degree on are not extrapolated.
 inline constexpr int most_continued = 8;
 
-/// What follows from the other coefficients.
+/// Computes the coefficients that follow from the others.
 template <class R>
 void complete(AverageTable<R>& t) {
   const auto k = static_cast<std::size_t>(t.averages);
   const auto s = static_cast<std::size_t>(t.points);
-  for (const R& w : t.weight) t.unit_weight.push_back(golden<R>() * w);
+  for (const R& w : t.weight) t.unit_weight.push_back(golden_ratio<R>() * w);
   for (std::size_t l = 0; l < s; ++l) {
     for (std::size_t i = 0; i < k; ++i) {
       const R& w = t.weight[l * k + i];
       for (std::size_t j = 0; j < k; ++j) {
-        t.bend.push_back(w * (t.increment[j] / R(2) + t.inner[j * s + l]));
+        t.tangent_weights.push_back(w * (t.increment[j] / R(2) + t.inner[j * s + l]));
         R reach(0);
         for (std::size_t m = 0; m < k; ++m) {
           const R by_momenta = t.scale[m] * (t.middle[m] * t.increment[j] / R(2) + t.coupling[m * k + j]);
           reach += (t.increment[m] / R(2) + t.inner[m * s + l]) * by_momenta;
         }
-        t.natural_bend.push_back(w * reach);
+        t.natural_tangent_weights.push_back(w * reach);
       }
     }
   }
@@ -136,7 +137,7 @@ AverageTable<R> made_stage_table(int stages) {
   for (std::size_t i = 0; i < k; ++i) t.weight[i * k + i] = rule.b[i];
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = i + 1; j < k && i + j < k; ++j) {
-      // mu_ij = sum_m I_m(c_i) P_m(c_j), and seen from the other end of the step mu_ij = 1 - mu_(k-1-i,k-1-j).
+      // mu_ij = sum_m I_m(c_i) P_m(c_j), and by reflection of the step mu_ij = 1 - mu_(k-1-i,k-1-j).
       R n(0);
       for (std::size_t m = k; m-- > 0;) n += integrals[i][m] * p[j][m];
       t.coupling[i * k + j] = t.coupling[(k - 1 - j) * k + k - 1 - i] = n;
@@ -162,13 +163,23 @@ AverageTable<To> rounded(const AverageTable<From>& t) {
     for (const From& x : from) to.push_back(static_cast<To>(x));
     return to;
   };
-  return {t.points,      t.averages,         round(t.inner),       round(t.weight), round(t.unit_weight),
-          t.diagonal,    round(t.increment), round(t.scale),       round(t.middle), round(t.coupling),
-          round(t.next), round(t.bend),      round(t.natural_bend)};
+  return {t.points,
+          t.averages,
+          round(t.inner),
+          round(t.weight),
+          round(t.unit_weight),
+          t.diagonal,
+          round(t.increment),
+          round(t.scale),
+          round(t.middle),
+          round(t.coupling),
+          round(t.next),
+          round(t.tangent_weights),
+          round(t.natural_tangent_weights)};
 }
 
-/// Tables by number, made once each; their addresses stay.
-/// @param make(): the table, in long double for double, so that the roundings are those of long double
+/// Tables by number. Each is made once, and its address does not change.
+/// @param make() makes the table; for double in long double, to round only once
 template <class R, class Make>
 const AverageTable<R>& kept_table(int averages, int points, const Make& make) {
   static std::mutex mutex;

@@ -1,5 +1,5 @@
-// What the ways to solve for averages share (average_table.hpp): options and coefficients, and the one equation that
-// all of them solve, which the verification differentiates.
+// Shared by the solvers for averages (average_table.hpp): options, coefficients, and the equation that all of them
+// solve, which the verification differentiates.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ namespace hamflow {
 
 /// Elements of any degree, or Gauss collocation in stages.
 struct AverageOptions {
-  CgOptions element{};  // of stages: those that both have; degree and quadrature are their number
+  CgOptions element{};  // for stages: the common options; degree and quadrature are the number of stages
   bool in_stages = false;
 
-  AverageOptions(const CgOptions& options) : element(options) {}  // NOLINT: these are such options
+  AverageOptions(const CgOptions& options) : element(options) {}  // NOLINT: implicit conversion is intended
   AverageOptions(const GaussOptions& o)                           // NOLINT
       : element{.degree = o.stages,
                 .quadrature = o.stages,
@@ -39,7 +39,7 @@ struct AverageOptions {
   }
 };
 
-/// Options and coefficients, which "auto" makes finer during a run.
+/// Options and coefficients, which "auto" refines during a run.
 template <class Real>
 class AverageSetup {
  public:
@@ -47,7 +47,7 @@ class AverageSetup {
   explicit AverageSetup(const AverageOptions& options) : options_(options) {  // NOLINT: restart() sets the rest
     restart();
   }
-  /// The points of a fresh run.
+  /// Resets to the points of a new run.
   void restart() { use(options_.element.quadrature > 0 ? options_.element.quadrature : options_.element.degree); }
 
   MethodInfo info() const { return options_.info(); }
@@ -61,24 +61,25 @@ class AverageSetup {
            (table().points == 1 ? "" : "s");
   }
 
-  /// Whether the map keeps the energy as far as its points see it; with as many points as averages it is symplectic.
+  /// Whether the map conserves the energy up to its quadrature; with as many points as averages it is symplectic
+  /// instead.
   bool conserves() const { return finer_ != nullptr && table().points > table().averages; }
   bool automatic() const { return options_.element.quadrature == 0; }
-  /// The same averages seen by one point more: for elements of fewer points than there can be.
+  /// The table with one point more, for elements with fewer points than the maximum.
   const AverageTable<Real>& finer() const { return *finer_; }
-  /// By two points more. @pre there are so many
+  /// The table with two points more. @pre there are so many
   const AverageTable<Real>& finest() const { return element_table<Real>(table().averages, table().points + 2); }
-  /// One more point than there are is needed to judge.
+  /// Adds a point; returns false at the limit, since the test needs one point more.
   bool refine() {
     if (table().points >= most_gauss_points - 1) return false;
     use(table().points + 1);
     return true;
   }
-  std::string hopeless() const {
+  std::string no_finer_rule_message() const {
     return "the force varies so much along the step, or the step is so stiff, that " + detail() +
-           " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
+           " do not keep the energy error at rounding level; a fixed number as method.quadrature skips this test";
   }
-  int mark() const { return table().points; }
+  int current_rule() const { return table().points; }
   void return_to(int points) {
     if (points != table().points) use(points);
   }
@@ -88,7 +89,7 @@ class AverageSetup {
     ar(points);
     if constexpr (Archive::reading) {
       if (points < table().averages || points > most_gauss_points) {
-        throw Error("saved bytes hold a number of Gauss points that cannot be");
+        throw Error("the saved bytes hold an impossible number of Gauss points");
       }
       if (points != table().points) use(points);
     }
@@ -122,7 +123,7 @@ class AverageSetup {
   const AverageTable<Real>* finer_ = nullptr;
 };
 
-/// From the averages of the last step those of the polynomial motion that continues it. Part of a run's state.
+/// The initial guess: averages of the polynomial that extrapolates the last step. Part of the state of a run.
 template <class V>
 class Continued {
  public:
@@ -139,8 +140,8 @@ class Continued {
   V last_{};
 };
 
-/// r_i = h sum_l W_il f(y_l) - u_i for any H. The k averages of one coordinate are neighbours: those of q_a stand from
-/// a k on, those of p_a from (n + a) k on.
+/// r_i = h sum_l W_il f(y_l) - u_i for any H. The k averages of a coordinate are contiguous: those of q_a begin at a k,
+/// those of p_a at (n + a) k.
 template <class P, class R>
 class AverageEquations {
  public:
@@ -196,14 +197,14 @@ class AverageEquations {
   AverageEquations(const P& problem, const Real& h, const AverageTable<Real>& table)
       : problem_(problem),
         h_(h),
-        unit_(h / detail::golden<Real>()),
+        unit_(h / detail::golden_ratio<Real>()),
         table_(table),
         s_(static_cast<std::size_t>(table.points)),
         k_(static_cast<std::size_t>(table.averages)) {}
 
   const P& problem_;
   const Real h_;
-  const Real unit_;  // h/kappa, see detail::golden
+  const Real unit_;  // h/kappa, see detail::golden_ratio
   const AverageTable<Real>& table_;
   const std::size_t s_;
   const std::size_t k_;

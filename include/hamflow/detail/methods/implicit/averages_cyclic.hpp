@@ -1,12 +1,12 @@
-// Averages where the last coordinate is cyclic: its momentum is constant, the others are solved for by themselves, and
-// the last one follows by quadrature at their points, u^q_n,i = h sum_l W_il dH/dp_n.   [Gross1999, (2.98)-(2.106)]
+// Averages with a cyclic last coordinate: its momentum is constant, the other coordinates are solved for alone, and the
+// last one follows by quadrature at their points, u^q_n,i = h sum_l W_il dH/dp_n.   [Gross1999, (2.98)-(2.106)]
 #pragma once
 
 #include "hamflow/detail/methods/implicit/averages_natural.hpp"
 
 namespace hamflow {
 
-/// The equations of the rest with one coordinate more.
+/// The equations of the other coordinates, extended by the cyclic one.
 template <class P, class R>
 class CyclicAverages : public AverageEquations<P, R> {
   using Base = AverageEquations<P, R>;
@@ -45,8 +45,8 @@ class CyclicAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return rest_.measure(x, at, correction);
   }
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
-    return rest_.doubts(x, at, correction);
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
+    return rest_.hidden_terms(x, at, correction);
   }
   Increment<Real, n> taken(Variables& x, const Point& at) const {
     const OfRest of_rest = rest_.taken(x, at);
@@ -60,7 +60,7 @@ class CyclicAverages : public AverageEquations<P, R> {
   Vector<Real, dynamic> unknowns(const Variables& x, const Increment<Real, n>&) const {
     const Vector<Real, dynamic> of_rest = rest_.unknowns(x, {});
     const Vector<Real, dynamic> angles = cyclic_averages(x);
-    const std::size_t half = x.size();  // the averages of the rest, in q and in p
+    const std::size_t half = x.size();  // the averages of the other coordinates, in q and in p
     Vector<Real, dynamic> all(2 * (half + k_));
     for (std::size_t i = 0; i < half; ++i) {
       all[i] = of_rest[i];
@@ -69,11 +69,13 @@ class CyclicAverages : public AverageEquations<P, R> {
     for (std::size_t i = 0; i < k_; ++i) all[half + i] = angles[i];
     return all;
   }
-  /// The energy that finer equations see the step gain.
+  /// The energy gain of the step according to a finer quadrature.
   detail::Gain<Real> gain_of_energy(const Variables& x) const { return rest_.gain_of_energy(x); }
   Real own_gain(const Variables& x) const { return rest_.own_gain(x); }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const { return rest_.too_coarse(x, {}); }
-  bool believable(const Variables& x, const Increment<Real, n>&) const { return rest_.believable(x, {}); }
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
+    return rest_.energy_error_acceptable(x, {});
+  }
 
  private:
   using Base::h_;

@@ -1,4 +1,5 @@
-// Averages for any H(q, p): Newton runs in all of them, r_i = h sum_l W_il J grad H(y_l) - u_i, with the exact tangent
+// Averages for any H(q, p): Newton's method solves r_i = h sum_l W_il J grad H(y_l) - u_i = 0 for all of them, with the
+// exact Jacobian
 //     K_ij = delta_ij I - h sum_l W_il (e_j/2 + N_lj) J H''(y_l).   [average_table.hpp]
 #pragma once
 
@@ -21,8 +22,7 @@ class GeneralAverages : public AverageEquations<P, R> {
   struct Setup : AverageSetup<Real> {
     Setup(const P&, const AverageOptions& options) : AverageSetup<Real>(options) {
       if (!Smooth<P> && options.element.iteration != Iteration::fixed_point) {
-        throw Error(
-            "H has no second derivatives here, and Newton's iteration uses them; allowed Iteration::fixed_point");
+        throw Error("this H has no second derivatives, which Newton's iteration needs; allowed Iteration::fixed_point");
       }
     }
   };
@@ -58,13 +58,13 @@ class GeneralAverages : public AverageEquations<P, R> {
     return x;
   }
   Variables started(const Memory& last) const {
-    if (last.size() != k_ * m_) return last_state();  // of a state that was saved elsewhere
+    if (last.size() != k_ * m_) return last_state();  // after restoring a state of another size
     return detail::continued(table_, last);
   }
 
   void evaluate(const Variables& x, Point& at) const {
     detail::clear(at, x.size(), 3 * size_ * size_ * k_ * k_);
-    auto size_q = point_rows<Real, n>(size_);  // of what dH/dq rounds by, and so for p
+    auto size_q = point_rows<Real, n>(size_);  // sizes of the terms of dH/dq; the same for p
     auto size_p = size_q;
     at_points(table_, x, at.linearised, [&](std::size_t first, std::size_t count, const Block& block) {
       for (std::size_t a = 0; a < size_; ++a) {
@@ -84,10 +84,10 @@ class GeneralAverages : public AverageEquations<P, R> {
             size_q[a * point_stride + l] += abs(qq[l] * q) + abs(qp[l] * p);
             size_p[a * point_stride + l] += abs(pq[l] * q) + abs(pp[l] * p);
           }
-          Real* const bends = &at.bends[3 * (a * size_ + b) * k_ * k_];
-          detail::add_bend(table_.bend, k_, first, count, qq, bends);
-          detail::add_bend(table_.bend, k_, first, count, qp, bends + k_ * k_);
-          detail::add_bend(table_.bend, k_, first, count, pp, bends + 2 * k_ * k_);
+          Real* const curvatures = &at.curvatures[3 * (a * size_ + b) * k_ * k_];
+          detail::add_curvatures(table_.tangent_weights, k_, first, count, qq, curvatures);
+          detail::add_curvatures(table_.tangent_weights, k_, first, count, qp, curvatures + k_ * k_);
+          detail::add_curvatures(table_.tangent_weights, k_, first, count, pp, curvatures + 2 * k_ * k_);
         }
       }
       detail::add_averages(table_, first, count, h_, Real(1), &block.dp[0], &size_p[0], 0, size_, at);
@@ -105,7 +105,7 @@ class GeneralAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::in_units_of_noise(x, at, correction);
   }
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::hiding_terms(x, at, correction);
   }
 
@@ -120,17 +120,17 @@ class GeneralAverages : public AverageEquations<P, R> {
   Memory memory(const Variables& x, const Increment<Real, n>&) const { return x; }
   Vector<Real, dynamic> unknowns(const Variables& x, const Increment<Real, n>&) const { return x; }
 
-  /// The energy that finer equations see the step gain.
+  /// The energy gain of the step according to a finer quadrature.
   detail::Gain<Real> gain_of_energy(const Variables& x) const { return gain(x, setup_.finer()); }
-  /// The energy that the equations themselves see it gain: the rounding of the solution.
+  /// The energy gain according to the quadrature in use: the rounding of the solution.
   Real own_gain(const Variables& x) const { return gain(x, setup_.table()).gain; }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
     return detail::overlooks_a_gain(
         gain(x, setup_.finer()), table_.points, [&] { return gain(x, setup_.finest()).gain; },
         [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
   }
-  /// Whether the energy is kept to a hundredth of the work done, where that is promised.
-  bool believable(const Variables& x, const Increment<Real, n>&) const {
+  /// Whether the energy error is below a hundredth of the work, for elements that conserve the energy.
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
     if (!setup_.conserves()) return true;
     const detail::Gain<Real> seen = gain(x, setup_.finer());
     return Real(100) * abs(seen.gain) <= seen.size;
@@ -149,7 +149,7 @@ class GeneralAverages : public AverageEquations<P, R> {
     PointRows<Real, n> q, p, dq, dp;
     PointRows<Real, squared> qq, qp, pp;
   };
-  /// Calls take(first, count, block) for the points of a table with gradients and, if wanted, second derivatives.
+  /// Calls take(first, count, block) for the points of a table with gradients and, if requested, second derivatives.
   template <class Take>
   void at_points(const AverageTable<Real>& table, const Variables& x, bool second, const Take& take) const {
     V middle_q = q0_;  // (z0 + z1)/2
@@ -174,14 +174,14 @@ class GeneralAverages : public AverageEquations<P, R> {
     });
   }
 
-  /// K from the sums.
+  /// Computes K from the sums.
   void close_tangent(Point& at) const {
     const std::size_t kk = k_ * k_;
     for (std::size_t a = 0; a < size_; ++a) {
       for (std::size_t b = 0; b < size_; ++b) {
-        const Real* const qq = &at.bends[3 * (a * size_ + b) * kk];
+        const Real* const qq = &at.curvatures[3 * (a * size_ + b) * kk];
         const Real* const qp = qq + kk;
-        const Real* const pq = &at.bends[3 * (b * size_ + a) * kk + kk];
+        const Real* const pq = &at.curvatures[3 * (b * size_ + a) * kk + kk];
         const Real* const pp = qq + 2 * kk;
         for (std::size_t i = 0; i < k_; ++i) {
           Real* const of_q = at.tangent[a * k_ + i];
@@ -204,15 +204,15 @@ class GeneralAverages : public AverageEquations<P, R> {
     for (std::size_t a = 0; a < m_; ++a) {
       detail::KeptSum<Real> sum;
       for (std::size_t j = 0; j < k_; ++j) {
-        if (!(table_.increment[j] == Real(0))) sum.add(x[a * k_ + j]);  // the others are 1
+        if (!(table_.increment[j] == Real(0))) sum.add(x[a * k_ + j]);  // other entries are 1
       }
       (a < size_ ? taken.q[a] : taken.p[a - size_]) = sum.high + sum.low;
     }
     return taken;
   }
 
-  /// The energy that a rule of more points sees the step gain, sum_j u_j.(sum_l W'_jl grad H(y'_l)). With the points in
-  /// use it is 0, whatever the averages are. Rounding as in averages_natural.hpp.
+  /// The energy gain of the step according to a rule with more points, sum_j u_j.(sum_l W'_jl grad H(y'_l)). With the
+  /// points in use it is 0 for any averages. The rounding is estimated as in averages_natural.hpp.
   detail::Gain<Real> gain(const Variables& x, const AverageTable<Real>& finer) const {
     V first_q = zeros_like(q0_);
     V first_p = first_q;

@@ -1,8 +1,8 @@
-// Averages for H = p^T M^-1 p/2 + V(q) with constant M: Newton runs in the impulses u^p_i = h sum_l W_il F(q_l) alone,
-// since
+// Averages for H = p^T M^-1 p/2 + V(q) with constant M: Newton's method solves only for the impulses u^p_i = h sum_l
+// W_il F(q_l), since
 //     u^q_j = h beta_j M^-1 (omega_j (p0 + p1)/2 + sum_i A_ji u^p_i),   q_l = (q0 + q1)/2 + sum_j N_lj u^q_j,
-// with the exact tangent   K_ij = delta_ij I + h^2 (sum_l W_il dq_l/du^p_j V''(q_l)) M^-1.
-// For cg(1) the residual is that of (2.63) in Gross1999.   [average_table.hpp]
+// with the exact Jacobian K_ij = delta_ij I + h^2 (sum_l W_il dq_l/du^p_j V''(q_l)) M^-1. For cg(1) the residual is
+// that of (2.63) in Gross1999.   [average_table.hpp]
 #pragma once
 
 #include "hamflow/detail/methods/implicit/averages_rows.hpp"
@@ -31,7 +31,7 @@ class NaturalAverages : public AverageEquations<P, R> {
         }
       }
     }
-    Matrix<Real, n> inverse_mass{};  // for the tangent alone
+    Matrix<Real, n> inverse_mass{};  // for the Jacobian only
     bool diagonal = true;
   };
 
@@ -55,14 +55,14 @@ class NaturalAverages : public AverageEquations<P, R> {
     return x;
   }
   Variables started(const Memory& last) const {
-    if (last.size() != k_ * size_) return last_state();  // of a state that was saved elsewhere
+    if (last.size() != k_ * size_) return last_state();  // after restoring a state of another size
     return detail::continued(table_, last);
   }
 
   void evaluate(const Variables& x, Point& at) const {
     detail::clear(at, x.size(), size_ * size_ * k_ * k_);
     const Variables u = displacements(x);
-    auto sizes = point_rows<Real, n>(size_);  // of what a force rounds by
+    auto sizes = point_rows<Real, n>(size_);  // sizes of the terms of a force
     at_points(table_, u, at.linearised ? With::hessians : With::forces,
               [&](std::size_t first, std::size_t count, const Block& block) {
                 for (std::size_t a = 0; a < size_; ++a) {
@@ -73,8 +73,8 @@ class NaturalAverages : public AverageEquations<P, R> {
                     const Real* const second = &block.h[(a * size_ + b) * point_stride];
                     for (std::size_t l = 0; l < count; ++l) size[l] += abs(second[l] * block.q[b * point_stride + l]);
                     if (b <= a) {
-                      detail::add_bend(table_.natural_bend, k_, first, count, second,
-                                       &at.bends[(a * size_ + b) * k_ * k_]);
+                      detail::add_curvatures(table_.natural_tangent_weights, k_, first, count, second,
+                                             &at.curvatures[(a * size_ + b) * k_ * k_]);
                     }
                   }
                 }
@@ -92,7 +92,7 @@ class NaturalAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::in_units_of_noise(x, at, correction);
   }
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::hiding_terms(x, at, correction);
   }
 
@@ -115,28 +115,28 @@ class NaturalAverages : public AverageEquations<P, R> {
     return all;
   }
 
-  /// The energy that finer equations see the step gain.
+  /// The energy gain of the step according to a finer quadrature.
   detail::Gain<Real> gain_of_energy(const Variables& x) const { return gain(x, setup_.finer()); }
-  /// The energy that the equations themselves see it gain: the rounding of the solution.
+  /// The energy gain according to the quadrature in use: the rounding of the solution.
   Real own_gain(const Variables& x) const { return gain(x, setup_.table()).gain; }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
     return detail::overlooks_a_gain(
         gain(x, setup_.finer()), table_.points, [&] { return gain(x, setup_.finest()).gain; },
         [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
   }
-  /// Whether the energy is kept to a hundredth of the work done, where that is promised.
-  bool believable(const Variables& x, const Increment<Real, n>&) const {
+  /// Whether the energy error is below a hundredth of the work, for elements that conserve the energy.
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
     if (!setup_.conserves()) return true;
     const detail::Gain<Real> seen = gain(x, setup_.finer());
     return Real(100) * abs(seen.gain) <= seen.size;
   }
 
-  /// A block of points with what is evaluated there, as points.hpp has them.
+  /// A block of points with the functions evaluated there, in the layout of points.hpp.
   struct Block {
     PointRows<Real, n> q, f;
     PointRows<Real, n == dynamic ? dynamic : n * n> h;
   };
-  /// The displacements u^q_j that belong to impulses.
+  /// The displacements u^q_j for given impulses.
   Variables displacements(const Variables& x) const {
     V middle = p0_;  // (p0 + p1)/2
     detail::add_half_increment(table_, x, 0, middle);
@@ -159,7 +159,7 @@ class NaturalAverages : public AverageEquations<P, R> {
     return u;
   }
   enum class With { points, forces, hessians };
-  /// Calls take(first, count, block) for the points of a table with what is wanted there.
+  /// Calls take(first, count, block) for the points of a table with the requested functions.
   template <class Take>
   void at_points(const AverageTable<Real>& table, const Variables& u, With with, const Take& take) const {
     V middle = q0_;  // (q0 + q1)/2
@@ -187,7 +187,7 @@ class NaturalAverages : public AverageEquations<P, R> {
   using Base::unit_;
   static constexpr auto epsilon = Epsilon<Real>{};
 
-  /// K from the sums.
+  /// Computes K from the sums.
   void close_tangent(Point& at) const {
     const Real factor = h_ * h_;
     const std::size_t kk = k_ * k_;
@@ -197,19 +197,19 @@ class NaturalAverages : public AverageEquations<P, R> {
           Real* const row = &at.tangent[a * k_ + i][b * k_];
           for (std::size_t j = 0; j < k_; ++j) row[j] = Real(0);
           for (std::size_t c = setup_.diagonal ? b : 0; c < (setup_.diagonal ? b + 1 : size_); ++c) {
-            const Real* const bends = &at.bends[bend_of(a, c) * kk + i * k_];
+            const Real* const curvatures = &at.curvatures[curvature_index(a, c) * kk + i * k_];
             const Real inverse_mass = factor * setup_.inverse_mass[c][b];
-            for (std::size_t j = 0; j < k_; ++j) row[j] += bends[j] * inverse_mass;
+            for (std::size_t j = 0; j < k_; ++j) row[j] += curvatures[j] * inverse_mass;
           }
         }
       }
     }
     for (std::size_t i = 0; i < at.tangent.size(); ++i) at.tangent[i][i] += Real(1);
   }
-  /// V'' is symmetric: only the lower half is summed.
-  std::size_t bend_of(std::size_t a, std::size_t b) const { return a < b ? b * size_ + a : a * size_ + b; }
+  /// Index of an entry of V''. V'' is symmetric, so only the lower half is summed.
+  std::size_t curvature_index(std::size_t a, std::size_t b) const { return a < b ? b * size_ + a : a * size_ + b; }
 
-  /// z1 - z0, each coordinate rounded once: what is lost in a step has a sign, see natural.hpp.
+  /// z1 - z0, each coordinate rounded once, because rounding errors of a step can have a fixed sign, see natural.hpp.
   Increment<Real, n> increment_of(const Variables& x) const {
     Increment<Real, n> taken{zeros_like(q0_), zeros_like(q0_)};
     V lost_q = zeros_like(q0_);
@@ -219,7 +219,7 @@ class NaturalAverages : public AverageEquations<P, R> {
     V v = lost_q;
     V rest = lost_q;
     for (std::size_t j = 0; j < k_; ++j) {
-      if (table_.increment[j] == Real(0)) continue;  // the others are 1, and so is omega
+      if (table_.increment[j] == Real(0)) continue;  // other entries are 1, and so is omega
       const Real length = h_ * table_.scale[j];
       for (std::size_t a = 0; a < size_; ++a) {
         detail::KeptSum<Real> p{p0_[a], Real(0)};
@@ -251,9 +251,9 @@ class NaturalAverages : public AverageEquations<P, R> {
     return taken;
   }
 
-  /// The energy that a rule of more points sees the step gain, sum_j u^q_j.(u^p_j - h sum_l W'_jl F(q'_l))/h. With the
-  /// points in use it is 0. Rounding: sums of s terms, and coordinates rounded to epsilon, by which the work changes as
-  /// V'' d; that is what forces differ by along the step.
+  /// The energy gain of the step according to a rule with more points, sum_j u^q_j.(u^p_j - h sum_l W'_jl F(q'_l))/h.
+  /// With the points in use it is 0. Its rounding comes from sums of s terms and from coordinates rounded to epsilon,
+  /// which change the work by V'' d, the difference of forces along the step.
   detail::Gain<Real> gain(const Variables& x, const AverageTable<Real>& finer) const {
     const Variables u = displacements(x);
     V first_force = zeros_like(q0_);

@@ -1,4 +1,5 @@
-// What the solvers for averages do alike: rows of numbers, one row for each average, and what Newton asks of them.
+// Functions shared by the solvers for averages: rows of numbers, one row for each average, and the functions that
+// Newton needs.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/averages.hpp"
@@ -8,17 +9,17 @@
 
 namespace hamflow::detail {
 
-/// What is known at one set of averages.
+/// The values at one set of averages.
 template <class Real>
 struct AveragesPoint {
   using Numbers = Vector<Real, dynamic>;
   Numbers residual{};
-  Numbers sum{};     // kappa sum_l W_il f(y_l)
-  Numbers target{};  // what the averages should be, h/kappa times that
-  Numbers noise{};   // what the target rounds by, in units of epsilon, entry by entry
-  Numbers bends{};   // sums of second derivatives, for the tangent
+  Numbers sum{};         // kappa sum_l W_il f(y_l)
+  Numbers target{};      // the averages that follow from it, h/kappa times the sum
+  Numbers noise{};       // rounding of the target in units of epsilon, entry by entry
+  Numbers curvatures{};  // sums of second derivatives, for the Jacobian
   Matrix<Real, dynamic> tangent{};
-  bool linearised = true;  // evaluate() is to compute the tangent, too
+  bool linearised = true;  // evaluate() computes the Jacobian, too
 };
 
 template <class Real>
@@ -30,18 +31,18 @@ void clear(Vector<Real, dynamic>& x, std::size_t size) {
   }
 }
 
-/// @param second the second derivatives that are summed
+/// @param second number of summed second derivatives
 template <class Real>
 void clear(AveragesPoint<Real>& at, std::size_t size, std::size_t second) {
   clear(at.sum, size);
   clear(at.noise, size);
   if (at.target.size() != size) at.target = at.residual = at.sum;
   if (!at.linearised) return;
-  clear(at.bends, second);
+  clear(at.curvatures, second);
   if (at.tangent.size() != size) at.tangent = Matrix<Real, dynamic>(size);
 }
 
-/// From the averages of the last step those of the polynomial motion that continues it.
+/// The averages of the polynomial that extrapolates the last step.
 template <class Real>
 Vector<Real, dynamic> continued(const AverageTable<Real>& table, const Vector<Real, dynamic>& last) {
   const auto k = static_cast<std::size_t>(table.averages);
@@ -54,7 +55,7 @@ Vector<Real, dynamic> continued(const AverageTable<Real>& table, const Vector<Re
   return x;
 }
 
-/// x += sum_j e_j u_j/2, where x are coordinates number `from` and following.
+/// x += sum_j e_j u_j/2 for the coordinates from number `from` on.
 template <class Real, std::size_t N>
 void add_half_increment(const AverageTable<Real>& table, const Vector<Real, dynamic>& u, std::size_t from,
                         Vector<Real, N>& x) {
@@ -66,7 +67,7 @@ void add_half_increment(const AverageTable<Real>& table, const Vector<Real, dyna
   }
 }
 
-/// Points first .. first + count - 1 of a table, middle + sum_j N_lj u_j, as points.hpp has them.
+/// Points first .. first + count - 1 of a table, middle + sum_j N_lj u_j, in the layout of points.hpp.
 template <class Real, std::size_t N>
 void place_points(const AverageTable<Real>& table, const Vector<Real, dynamic>& u, std::size_t from, std::size_t first,
                   std::size_t count, const Vector<Real, N>& middle, Real* x) {
@@ -84,8 +85,8 @@ void place_points(const AverageTable<Real>& table, const Vector<Real, dynamic>& 
   }
 }
 
-/// Adds sign * kappa sum_l W_il f_l to the sums, and |h| sum_l |W_il| size_l to the noise, of coordinates `from` and
-/// following.
+/// Adds sign * kappa sum_l W_il f_l to the sums, and |h| sum_l |W_il| size_l to the noise, for the coordinates from
+/// number `from` on.
 /// @param f, size rows of a block of points
 template <class Real>
 void add_averages(const AverageTable<Real>& table, std::size_t first, std::size_t count, const Real& h,
@@ -112,18 +113,19 @@ void add_averages(const AverageTable<Real>& table, std::size_t first, std::size_
   }
 }
 
-/// bends += sum_l factor_l,ij second_l, k k numbers.
-/// @param factor of a table, @param second one row of a block of points
+/// curvatures += sum_l factor_l,ij second_l, k k numbers.
+/// @param factor from a table @param second one row of a block of points
 template <class Real>
-void add_bend(const std::vector<Real>& factor, std::size_t k, std::size_t first, std::size_t count, const Real* second,
-              Real* bends) {
+void add_curvatures(const std::vector<Real>& factor, std::size_t k, std::size_t first, std::size_t count,
+                    const Real* second, Real* curvatures) {
   for (std::size_t l = 0; l < count; ++l) {
     const Real* const row = factor.data() + (first + l) * k * k;
-    for (std::size_t ij = 0; ij < k * k; ++ij) bends[ij] += row[ij] * second[l];
+    for (std::size_t ij = 0; ij < k * k; ++ij) curvatures[ij] += row[ij] * second[l];
   }
 }
 
-/// target and residual of a sum that is complete. The residual is without the rounding of the product, see natural.hpp.
+/// Computes target and residual from the complete sum. The residual does not have the rounding of the product, see
+/// natural.hpp.
 template <class Real>
 void close(AveragesPoint<Real>& at, const Real& unit, const Vector<Real, dynamic>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -132,8 +134,8 @@ void close(AveragesPoint<Real>& at, const Real& unit, const Vector<Real, dynamic
   }
 }
 
-/// x <- the target at x + correction. With the tangent K to second order: the target changes by correction - K
-/// correction; without one by nothing, since x + correction is the target. Rounded once, see natural.hpp.
+/// x <- the target at x + correction, rounded once, see natural.hpp. With the Jacobian K this is exact to second order:
+/// the target changes by correction - K correction. Without a Jacobian x + correction is the target.
 template <class Real>
 void move_to_target(Vector<Real, dynamic>& x, const AveragesPoint<Real>& at, const Real& unit,
                     const Vector<Real, dynamic>& correction) {
@@ -147,7 +149,7 @@ void move_to_target(Vector<Real, dynamic>& x, const AveragesPoint<Real>& at, con
   }
 }
 
-/// The largest correction in units of its noise: entries have units of their own.
+/// The largest correction in units of its noise, because entries may have different units.
 template <class Real>
 Correction<Real> in_units_of_noise(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
                                    const Vector<Real, dynamic>& correction) {
@@ -160,8 +162,8 @@ Correction<Real> in_units_of_noise(const Vector<Real, dynamic>& x, const Average
   return {distance, Real(1)};
 }
 
-/// How large the terms are whose rounding hides the unknowns themselves, see hidden_by_rounding; 0: it does not. Fixed
-/// points do not ask: a correction is the residual there, which is small nowhere but at a solution.
+/// The size of the terms if their rounding hides the unknowns, see hidden_by_rounding; else 0. Fixed-point iteration
+/// does not need it: its correction is the residual, which is small only at a solution.
 template <class Real>
 Real hiding_terms(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
                   const Vector<Real, dynamic>& correction) {
@@ -183,7 +185,7 @@ R two_norm(const Vector<R, N>& all) {
   return sqrt(sum);
 }
 
-/// A sum of several terms and what its rounding has lost.   [Knuth1997, 4.2.2]
+/// A sum of several terms with its rounding error.   [Knuth1997, 4.2.2]
 template <class Real>
 struct KeptSum {
   Real high{0};

@@ -1,14 +1,15 @@
-// cg(1) where the last coordinate is cyclic: its momentum l is constant, Newton runs in the other coordinates, and the
-// last one follows by quadrature on the converged segment.   [Gross1999, (2.98)-(2.106)]
+// cg(1) with a cyclic last coordinate: its momentum l is constant, Newton's method solves for the other coordinates,
+// and the last one follows by quadrature on the converged segment.   [Gross1999, (2.98)-(2.106)]
 //     q_n(1) - q_n(0) = h sum_l b_l dH/dp_n(q(alpha_l), l).
-// With polar coordinates that is the seed's scalar Newton in r, and the angular momentum is conserved by construction.
+// In polar coordinates this is the scalar Newton iteration in r of [Gross1999], and the angular momentum is conserved
+// by construction.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/natural.hpp"
 
 namespace hamflow {
 
-/// The equations of the rest with one coordinate more.
+/// The equations of the other coordinates, extended by the cyclic one.
 template <class P, class R>
 class CyclicElement : public SegmentEquations<P, R> {
   using Base = SegmentEquations<P, R>;
@@ -40,7 +41,9 @@ class CyclicElement : public SegmentEquations<P, R> {
   Variables predicted() const { return rest_.predicted(); }
   Variables started(const Memory& memory) const { return rest_.started(memory); }
   [[gnu::always_inline]] void evaluate(const Variables& x, Point& at) const { rest_.evaluate(x, at); }
-  void sharpen(const Variables& x, Point& at) const requires(Reduced::dimension > 2) { rest_.sharpen(x, at); }
+  void remove_residual_rounding(const Variables& x, Point& at) const requires(Reduced::dimension > 2) {
+    rest_.remove_residual_rounding(x, at);
+  }
   [[gnu::always_inline]] auto tangent(const Point& at) const { return rest_.tangent(at); }
   Real norm(const Variables& x, const Point& at) const { return rest_.norm(x, at); }
   [[gnu::always_inline]] Correction<Real> measure(const Variables& x, const Point& at,
@@ -48,8 +51,8 @@ class CyclicElement : public SegmentEquations<P, R> {
     return rest_.measure(x, at, correction);
   }
 
-  [[gnu::always_inline]] Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
-    return rest_.doubts(x, at, correction);
+  [[gnu::always_inline]] Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
+    return rest_.hidden_terms(x, at, correction);
   }
 
   [[gnu::always_inline]] Increment<Real, n> taken(Variables& x, const Point& at) const {
@@ -62,8 +65,8 @@ class CyclicElement : public SegmentEquations<P, R> {
   bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const {
     return rest_.too_coarse(x, {head(taken.q), head(taken.p)});
   }
-  bool believable(const Variables& x, const Increment<Real, n>& taken) const {
-    return rest_.believable(x, {head(taken.q), head(taken.p)});
+  bool energy_error_acceptable(const Variables& x, const Increment<Real, n>& taken) const {
+    return rest_.energy_error_acceptable(x, {head(taken.q), head(taken.p)});
   }
 
  private:

@@ -1,22 +1,22 @@
 // A step with a discrete gradient DH of H: u = z1 - z0 is
 //     u = h J DH(z0, z1),     DH . u = H(z1) - H(z0),     DH(z, z) = grad H(z),
-// so that H(z1) - H(z0) = h DH . J DH = 0: H is conserved, whatever it is.   [HLW2006, Sect. V.5; Gonzalez1996]
-// Newton runs in u with the exact tangent 1 - h J dDH/du.
+// so that H(z1) - H(z0) = h DH . J DH = 0: any H is conserved.   [HLW2006, Sect. V.5; Gonzalez1996] Newton's method
+// solves for u with the exact Jacobian 1 - h J dDH/du.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/target.hpp"
 
 namespace hamflow {
 
-/// What a discrete gradient is at one u.
+/// A discrete gradient at one u.
 template <class Real>
 struct LinearisedGradient {
   Vector<Real, dynamic> value{};  // DH, first by q, then by p
-  Vector<Real, dynamic> noise{};  // what it rounds by, in units of epsilon
-  Matrix<Real, dynamic> by_u{};   // dDH_i/du_j, where it is wanted
+  Vector<Real, dynamic> noise{};  // its rounding in units of epsilon
+  Matrix<Real, dynamic> by_u{};   // dDH_i/du_j, if requested
 };
 
-/// What a discrete gradient claims, with what follows from the options.
+/// The claims of a discrete gradient, completed by the options.
 inline MethodInfo described(MethodInfo claims, const NewtonOptions& options) {
   claims.halves_steps = options.halve;
   claims.diagnostics = options.diagnostics;
@@ -82,14 +82,14 @@ class DiscreteGradientStep : public TargetEquations<R> {
     LinearisedGradient<Real> dh;
     setup_.rule.linearise(problem_, stacked(q0_, p0_), u, at.linearised, dh, effort_);
     Base::clear(at, u.size());
-    const Real kappa = detail::golden<Real>();
+    const Real kappa = detail::golden_ratio<Real>();
     for (std::size_t i = 0; i < u.size(); ++i) {
       const bool of_q = i < size;
       const std::size_t other = of_q ? size + i : i - size;  // J
-      // The momentum of the time at which a step of H(q, p, t) begins is in no function. A gradient along the whole
-      // increment would move that time with it.
-      const bool is_in_none = has_clock(problem_) && i + 1 == u.size();
-      if (is_in_none) {
+      // No function depends on the momentum of the coordinate that holds the start time of a step of H(q, p, t). A
+      // gradient along the whole increment would change that time.
+      const bool is_unused = has_clock(problem_) && i + 1 == u.size();
+      if (is_unused) {
         if (at.linearised) at.tangent[i][i] = Real(1);
         continue;
       }

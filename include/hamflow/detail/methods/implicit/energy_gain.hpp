@@ -1,4 +1,4 @@
-// What one more Gauss point sees of the energy that a step gains: how quadrature = "auto" judges.
+// The criterion of quadrature = "auto": the energy gain of a step according to a rule with one more Gauss point.
 #pragma once
 
 #include <concepts>
@@ -11,50 +11,50 @@
 
 namespace hamflow::detail {
 
-/// The rounding of a sum of work, that of its terms and that of the coordinates at which forces are evaluated, which
-/// adds up as independent roundings do.
+/// The rounding of a sum of work: of its terms and of the coordinates at which forces are evaluated, summed like
+/// independent errors.
 template <class Real>
 struct RoundingOfWork {
   Real works{0};
-  Real bends{0};
-  /// @param bend (V'' d) q: the change of a force along the step times the coordinate
-  void add(const Real& work, const Real& bend) {
+  Real force_changes{0};
+  /// @param force_change (V'' d) q, the change of a force along the step times the coordinate
+  void add(const Real& work, const Real& force_change) {
     works += work * work;
-    bends += bend * bend;
+    force_changes += force_change * force_change;
   }
   Real of_terms(int terms) const {
     constexpr auto epsilon = Epsilon<Real>{};
-    return epsilon * Real(Real(terms) * sqrt(works) + Real(4) * sqrt(bends));
+    return epsilon * Real(Real(terms) * sqrt(works) + Real(4) * sqrt(force_changes));
   }
 };
 
-/// What points see of the energy that a step gains, and what rounding makes of it.
+/// The energy gain of a step according to some points, and its rounding.
 template <class Real>
 struct Gain {
   Real gain{0};
-  Real size{0};   // of its terms
-  Real noise{0};  // that rounding explains
+  Real size{0};   // size of its terms
+  Real noise{0};  // the gain that rounding can explain
 };
 
-/// From so many points on it takes more than two rules that agree, which noise brings about once in a while: up to
-/// there a point too many costs little.
+/// From this number of points on the test requires more than the agreement of two rules, which noise can cause by
+/// chance; with fewer points an unnecessary point costs little.
 inline constexpr int points_enough = 16;
 
-/// Whether a rule of points overlooks energy that a step gains: one more point sees more than rounding explains, and
-/// two more see the same. Where the estimate of rounding is too small, they see different noise; where they are still
-/// far from converged they differ, too, but each sees the same along neighbouring steps, which noise does not. What
-/// the rule itself sees of the energy is no fault of its points: it is the rounding of the solution, which in a stiff
-/// step is far more than that of the work, and which every rule sees alike.
-/// @param points of the rule   @param two_more(): the gain as two more points see it
-/// @param own(): the gain as the rule itself sees it
-/// @param nearby(draw): what one point more sees along a neighbouring step beyond what the rule itself sees there;
-/// null: is not asked
+/// Whether a rule misses an energy gain of the step: the gain with one more point is more than rounding explains, and
+/// two more points agree. If the estimate of rounding is too small, the two rules see different noise. If they are far
+/// from converged, they differ, too, but each gives the same gain along neighbouring steps, unlike noise. The gain
+/// according to the rule itself is not an error of the rule: it is the rounding of the solution, which in a stiff step
+/// is far larger than that of the work and the same for every rule.
+/// @param points of the rule @param two_more() the gain with two more points
+/// @param own() the gain with the rule itself
+/// @param nearby(draw) the gain with one more point minus that with the rule itself, along a neighbouring step; null:
+/// unused
 template <class Real, class TwoMore, class Own, class Nearby = std::nullptr_t>
 bool overlooks_a_gain(const Gain<Real>& one, int points, const TwoMore& two_more, const Own& own,
                       const Nearby& nearby = nullptr) {
   if (abs(one.gain) <= one.noise) return false;
   const Real of_solution = own();
-  const bool rounds = abs(of_solution) <= one.size / (1 << 20);  // more is no rounding, of whatever step
+  const bool rounds = abs(of_solution) <= one.size / (1 << 20);  // a larger value is never rounding
   const Real overlooked = rounds ? Real(one.gain - of_solution) : one.gain;
   if (abs(overlooked) <= one.noise) return false;
   if (abs(overlooked) > Real(4096) * one.noise || points + 2 > most_gauss_points) return true;
@@ -70,9 +70,9 @@ bool overlooks_a_gain(const Gain<Real>& one, int points, const TwoMore& two_more
   }
 }
 
-/// What one point more sees along a step beside that of the averages x, beyond what the rule itself sees there. It is
-/// so far away (2^-24 of state and averages) that forces round otherwise, however much they hide of the last digits of
-/// a state (exp(x) - 1), and so near that a gain is the same.
+/// The gain with one more point minus that with the rule itself, along a step next to that of the averages x. It is at
+/// a distance of 2^-24 of state and averages: far enough that forces have other rounding errors, even if they lose the
+/// last digits of a state (exp(x) - 1), and close enough that the gain is the same.
 template <class E>
 [[gnu::cold, gnu::noinline]] typename E::Real gain_nearby(const E& step, const typename E::Variables& x,
                                                           std::uint64_t draw) {
@@ -90,7 +90,7 @@ template <class E>
   return there.gain_of_energy(moved).gain - there.own_gain(moved);
 }
 
-/// What H rounds by near a state: it has terms that cancel, of which those of the virial tell.
+/// The rounding of H near a state, estimated from the virial, because terms of H may cancel.
 template <class P, class Real, std::size_t N>
 Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real, N>& p) {
   Vector<Real, N> dq = zeros_like(q);
@@ -101,16 +101,17 @@ Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real
   return size;
 }
 
-/// What the change of H along a step rounds by where |H| and the virial do not tell of it, since H has terms that
-/// cancel (exp(x) - x - 1 of small x) or a constant, when both ends move by small parts of the step. 0 where it is not
-/// rounding that is seen, and where so small a part of the step changes H by much: a step that long leads nowhere.
+/// The rounding of the change of H along a step if |H| and the virial do not show it, because H has terms that cancel
+/// (exp(x) - x - 1 for small x) or a constant. It is measured by moving both ends by small parts of the step. 0 if the
+/// differences are not rounding, or if such a small part of the step changes H by much, since such a step is too long
+/// anyway.
 /// @param size of H and its virial at the start
 template <class P, class Real, std::size_t N>
 [[gnu::cold, gnu::noinline]] Real rounding_of_change(const P& problem, const Vector<Real, N>& q0,
                                                      const Vector<Real, N>& p0, const Increment<Real, N>& taken,
                                                      const Real& size) {
   using One = Vector<Real, 1>;
-  Real ends[2];  // H there
+  Real ends[2];  // H at the ends
   bool is_near = true;
   const auto change_from = [&](const Real& part, std::uint64_t draw) {
     Vector<Real, N> q = q0;
@@ -139,11 +140,11 @@ template <class P, class Real, std::size_t N>
   return is_near ? rounding : Real(0);
 }
 
-/// Whether H has changed by 256 roundings of its terms along a step that no rule of points sees any gain in. Either
-/// both rules are far from converged, so that what they see differs as noise does, or H is not smooth: where it has a
-/// kink (abs(x)) beyond the outermost points, two rules agree about what neither has seen.
-/// @param own(): the gain as the rule in use sees it, which is no more than the rounding of the solution
-/// @param most_roundings of the terms of H that are no change
+/// Whether H has changed by 256 roundings of its terms along a step in which no rule finds a gain. Either both rules
+/// are far from converged, so that their results differ like noise, or H is not smooth: two rules agree if H has a kink
+/// (abs(x)) beyond their outermost points.
+/// @param own() the gain with the rule in use, which is only the rounding of the solution
+/// @param most_roundings number of roundings of the terms of H that do not count as a change
 template <class P, class Real, std::size_t N, class Own>
 bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
                         const Increment<Real, N>& taken, const Own& own, int most_roundings = 256) {
@@ -156,11 +157,11 @@ bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vecto
   }
   const Real before = energy(problem, q0, p0);
   const Real change = energy(problem, q1, p1) - before;
-  if (abs(change) <= epsilon * Real(most_roundings * abs(before))) return false;  // most steps need to know no more
+  if (abs(change) <= epsilon * Real(most_roundings * abs(before))) return false;  // sufficient for most steps
   const Real size = size_of_terms(problem, q0, p0);
   const Real explained = epsilon * Real(most_roundings * (size + size_of_terms(problem, q1, p1)));
   if (!(abs(change) > explained)) return false;
-  const bool rounds = abs(change) <= size / (1 << 20);  // more is no rounding of a solution, of whatever step
+  const bool rounds = abs(change) <= size / (1 << 20);  // a larger value is never the rounding of a solution
   const Real beyond = rounds ? Real(abs(change - own())) : abs(change);
   return beyond > explained && beyond > Real(16) * rounding_of_change(problem, q0, p0, taken, size);
 }

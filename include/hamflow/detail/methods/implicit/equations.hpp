@@ -1,31 +1,30 @@
-// The equations of one step of an implicit method: what a new implicit method has to write. newton.hpp solves them,
+// The equations of one step of an implicit method, which a new implicit method must define. newton.hpp solves them,
 // implicit_method.hpp makes a method of them, and the verification differentiates them.
 //
 // A step from z0 = (q0, p0) is given by unknowns U with
 //     r(z0, U) = 0,      z1 = z0 + E(U),
-// U counted from the last state: U = 0 means that nothing has moved, z1 = z0. Stages of a collocation are such
-// unknowns, and so are the coefficients of a polynomial, or z1 - z0 itself. Newton may run in other, fewer variables X,
-// where the rest follows from them (the momenta of a mechanical system, a cyclic coordinate); without elimination X is
-// U.
+// U is measured from the last state: U = 0 means z1 = z0. Stages of a collocation, coefficients of a polynomial, or z1
+// - z0 itself are such unknowns. Newton may solve for fewer variables X if the others follow from them (the momenta of
+// a mechanical system, a cyclic coordinate); without elimination X is U.
 //
-// A class `E` of equations is one object for each step. It keeps references to what outlives the step, its `Setup`
-// (options, coefficients, mass matrix), to the problem and to z0:
+// An object of the class `E` exists for each step. It keeps references to objects that outlive the step: its `Setup`
+// (options, coefficients, mass matrix), the problem and z0:
 //
 //     E(const Setup&, const P&, const Real& h, const V& q0, const V& p0, Effort&)      V = Vector<Real, n>
 //     static constexpr std::size_t n           degrees of freedom, or `dynamic`
 //     Problem, Real, Setup                     types
 //     Variables = Vector<Real, ...>            X
 //     Unknowns = Vector<Real, ...>             U
-//     Memory = Vector<Real, ...>               what is extrapolated from step to step for the first guess
-//     Point                                    what is known at one X, with a member `residual` (Variables): r, of that
+//     Memory = Vector<Real, ...>               data from which the first guess is extrapolated
+//     Point                                    the values at one X, with a member `residual` (Variables): r, with that
 //                                              sign for which X + tangent^-1 r is better than X; default-constructible
 // Newton:
 //     Variables last_state() const             X of U = 0
 //     Variables predicted() const              from z0 alone, by an explicit formula
 //     Variables started(const Memory&) const   from an extrapolated memory
-//     void evaluate(const Variables&, Point&) const            residual, and what its tangent needs; counts evaluations
+//     void evaluate(const Variables&, Point&) const            residual and data of the Jacobian; counts evaluations
 //     tangent(const Point&) const              -dr/dX, a Matrix
-//     Real norm(const Variables&, const Point&) const          of the residual, as option `tolerance` means it
+//     Real norm(const Variables&, const Point&) const          of the residual, for the option `tolerance`
 //     Correction<Real> measure(const Variables& x, const Point&, const Variables& correction) const
 // The end of a step, without a further evaluation; both leave the solution in x:
 //     Increment<Real, n> taken(Variables& x, const Point&) const                         z1 - z0 at x
@@ -38,31 +37,33 @@
 //     static increment(unknowns)               E(U), an Increment<S, n>; where it depends on coefficients, a member
 //                                              increment<n>(unknowns) of Setup instead
 // Optional:
-//     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
-//                                              without its own rounding
-//     Real doubts(const Variables& x, const Point&, const Variables& c) const     asked where the correction c counts
-//                                              as rounding: how large the terms are where that is far more than a
-//                                              solution rounds by, else 0
-//     Real own_gain(const Variables& x) const  the energy that the equations themselves see the step gain: what the
-//                                              rounding of the solution makes of it
-//     bool believable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that was found
-//                                              from a bad start: implicit equations have roots that have nothing to do
-//                                              with the motion
-//     bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const      asked after convergence: whether
-//                                              the step has to be solved again after Setup::refine()
-//     Guesses                                  a type in place of Extrapolation<Memory>
-//     Point::linearised                        a bool: whether evaluate() has to compute what the tangent needs. Then
-//                                              every Iteration can solve the equations, else Newton's alone.
-//     const V& positions() const, momenta() const, E from(const V& q0, const V& p0) const      the state, and the same
-//                                              step from another one: iterations without second derivatives learn from
-//                                              it what the rounding of coordinates makes of the residual
+//     void remove_residual_rounding(const Variables&, Point&) const
+//                                              called after evaluate(), before the last corrections
+//     Real hidden_terms(const Variables& x, const Point&, const Variables& c) const
+//                                              called if the correction c counts as rounding: the size of the terms if
+//                                              it is far larger than the rounding of a solution, else 0
+//     Real own_gain(const Variables& x) const  the energy gain of the step according to the equations themselves, that
+//                                              is, the rounding of the solution
+//     bool energy_error_acceptable(const Variables& x, const Increment<Real, n>& taken) const
+//                                              called for a root found from a bad guess, because implicit equations
+//                                              have roots that do not belong to the motion
+//     bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const
+//                                              called after convergence: whether the step must be solved again after
+//                                              Setup::refine()
+//     Guesses                                  a type that replaces Extrapolation<Memory>
+//     Point::linearised                        a bool: whether evaluate() must compute the data of the Jacobian. With
+//                                              it every Iteration can solve the equations, without it only Newton's.
+//     const V& positions() const, momenta() const, E from(const V& q0, const V& p0) const
+//                                              the state, and the same step from another state: iterations without
+//                                              second derivatives measure the effect of rounded coordinates with it
 // `Setup` is made from (const P&, Options) and has
 //     MethodInfo info() const                  the method's claims
 //     NewtonOptions newton() const
 //     std::string detail() const               for the text of a failure: "5 Gauss points"
 //     static constexpr const char* residual_name
-//     archive(ar)                              what of it changes during a run
-// and, with too_coarse(), refine() (false: as fine as can be), hopeless() (that as a text), and mark() and return_to().
+//     archive(ar)                              the part that changes during a run
+// and, with too_coarse(), refine() (returns false at the limit), no_finer_rule_message() (a text for that case),
+// current_rule() and return_to().
 #pragma once
 
 #include <concepts>
@@ -82,16 +83,15 @@ struct Increment {
   Vector<Real, N> p{};
 };
 
-/// The size of a correction, and what rounding alone makes of the corrected variables: epsilon times the size of the
-/// terms that they are computed from. Both in one unit: a length, say, or, where variables have different units, the
-/// noise itself.
+/// The size of a correction, and the rounding of the corrected variables: epsilon times the size of their terms. Both
+/// have the same unit, for example a length or, if variables have different units, the noise itself.
 template <class Real>
 struct Correction {
   Real size;
   Real noise;
 };
 
-/// The unit of rounding: a constant of the hardware's types, for others asked for where it stands.
+/// The unit of rounding: a constant for hardware types, evaluated at each use for others.
 template <class Real>
 struct Epsilon {
   friend constexpr Real operator*(Epsilon, const Real& x) { return std::numeric_limits<Real>::epsilon() * x; }
@@ -148,7 +148,7 @@ concept HasStepSetup = HasStepTypes<E> && requires(typename E::Setup& setup) {
 };
 }  // namespace detail
 
-/// **StepEquations**: see the head of this file.
+/// **StepEquations**: see the top of this file.
 template <class E>
 concept StepEquations =
     detail::SolvableByNewton<E> && detail::EndsStep<E> && detail::Verifiable<E> && detail::HasStepSetup<E>;

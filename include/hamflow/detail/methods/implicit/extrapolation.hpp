@@ -1,19 +1,19 @@
-// The first guess of a step from the steps before it.
+// The initial guess of a step, from the steps before it.
 #pragma once
 
 #include <cstddef>
 
 namespace hamflow {
 
-/// Extrapolates a smooth sequence from its last three members. Part of a run's state.
+/// Extrapolates a smooth sequence from its last three members. Part of the state of a run.
 template <class V>
 class Extrapolation {
  public:
   bool empty() const { return remembered_ == 0; }
   void forget() { remembered_ = 0; }
-  /// Whether as many are remembered as are extrapolated from.
+  /// Whether all three members are known.
   bool is_full() const { return remembered_ == 3; }
-  /// The k-th last one, from 0.
+  /// The k-th last member, k = 0, 1, 2.
   const V& last(std::size_t k) const { return last_[k]; }
   void remember(const V& x) {
     last_[2] = last_[1];

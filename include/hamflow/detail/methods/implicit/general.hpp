@@ -1,6 +1,6 @@
 // cg(1) for any H(q, p).   [Gross1999, (1.43), (1.44), (3.127)-(3.131)]
 //     q1 - q0 = h int H_p dalpha,   p1 - p0 = -h int H_q dalpha   along the straight segment from z0 to z1 = z0 + u.
-// Newton runs in u = (q1 - q0, p1 - p0) on r(u) = h int J grad H - u with the exact tangent
+// Newton's method solves r(u) = h int J grad H - u = 0 for u = (q1 - q0, p1 - p0) with the exact Jacobian
 //     K_T = I + h sum_l b_l alpha_l [[-H_pq, -H_pp], [H_qq, H_qp]].
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace hamflow {
 
-/// The variables are u, which is also what is extrapolated.
+/// The variables are u, which is also extrapolated.
 template <class P, class R>
 class GeneralElement : public SegmentEquations<P, R> {
   using Base = SegmentEquations<P, R>;
@@ -30,8 +30,8 @@ class GeneralElement : public SegmentEquations<P, R> {
   struct Point {
     Z residual{};
     Z sum{};     // kappa int J grad H
-    Z target{};  // what u should be, h int J grad H
-    Z noise{};   // what the target rounds by, in units of epsilon, coordinate by coordinate
+    Z target{};  // the u that follows from it, h int J grad H
+    Z noise{};   // rounding of the target in units of epsilon, coordinate by coordinate
     Matrix<Real, m> tangent{};
   };
 
@@ -59,14 +59,14 @@ class GeneralElement : public SegmentEquations<P, R> {
     at.residual = at.target;
     for (std::size_t i = 0; i < x.size(); ++i) at.residual[i] = at.target[i] - x[i];
   }
-  /// The residual without the rounding of the product with h, see natural.hpp.
-  void sharpen(const Z& x, Point& at) const {
+  /// Removes the rounding of the product with h from the residual, see natural.hpp.
+  void remove_residual_rounding(const Z& x, Point& at) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
       at.residual[i] = (at.target[i] - x[i]) + product_error(unit_, at.sum[i], at.target[i]);
     }
   }
   const Matrix<Real, m>& tangent(const Point& at) const { return at.tangent; }
-  /// The largest correction in units of its noise: q and p have units of their own.
+  /// The largest correction in units of its noise, because q and p have different units.
   Correction<Real> measure(const Z& x, const Point& at, const Z& correction) const {
     return measured(at.noise, x, correction);
   }
@@ -80,10 +80,12 @@ class GeneralElement : public SegmentEquations<P, R> {
     return {distance, Real(1)};
   }
 
-  /// The size of the target where its rounding hides the step, else 0, see natural.hpp.
-  Real doubts(const Z& x, const Point& at, const Z& correction) const { return doubted(at.target, x, correction); }
+  /// The size of the target if its rounding hides the step, else 0, see natural.hpp.
+  Real hidden_terms(const Z& x, const Point& at, const Z& correction) const {
+    return hidden_terms_of(at.target, x, correction);
+  }
   template <class X>
-  static Real doubted(const X& target, const X& x, const X& correction) {
+  static Real hidden_terms_of(const X& target, const X& x, const X& correction) {
     Real size(0);
     Real step(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -97,8 +99,8 @@ class GeneralElement : public SegmentEquations<P, R> {
     x = at.target;
     return detail::halves<n>(x);
   }
-  /// The target at u + correction to second order: correction - K correction is what it changes by. Added to what is
-  /// rounded already it would mostly be lost, with the sign of the correction, as in natural.hpp.
+  /// The target at u + correction to second order: it changes by correction - K correction. Added to a rounded value,
+  /// most of this would be lost, with the sign of the correction, as in natural.hpp.
   Increment<Real, n> taken(Z& x, const Point& at, const Z& correction) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
       Real change = correction[i];
@@ -109,7 +111,8 @@ class GeneralElement : public SegmentEquations<P, R> {
   }
   Z memory(const Z&, const Increment<Real, n>& taken) const { return detail::stacked(taken.q, taken.p); }
 
-  /// The 2-norm of r in q and p. The seed's programs iterate in z1 and form z1 - z0 anew: so does its criterion.
+  /// The 2-norm of r in q and p. The programs of [Gross1999] iterate in z1 and compute z1 - z0 again; criterion "seed"
+  /// does the same.
   Real norm(const Z& x, const Point& at) const {
     const std::size_t size = q0_.size();
     Z r = at.residual;
@@ -124,8 +127,8 @@ class GeneralElement : public SegmentEquations<P, R> {
     return sqrt(sum);
   }
 
-  /// Whether one more point sees more energy gained along the segment than rounding explains. With the points in use
-  /// the gain is zero: int H_q.(q1 - q0) + int H_p.(p1 - p0) = -(p1 - p0).(q1 - q0)/h + (q1 - q0).(p1 - p0)/h.
+  /// Whether the energy gain along the segment with one more point is more than rounding explains. With the points in
+  /// use the gain is zero: int H_q.(q1 - q0) + int H_p.(p1 - p0) = -(p1 - p0).(q1 - q0)/h + (q1 - q0).(p1 - p0)/h.
   bool too_coarse(const Z&, const Increment<Real, n>& u) const {
     const Real rounding = rounding_of_work(u);
     return abs(finer_work(u).gain) > rounding;
@@ -157,14 +160,14 @@ class GeneralElement : public SegmentEquations<P, R> {
     }
     return rounding;
   }
-  /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
-  bool believable(const Z&, const Increment<Real, n>& u) const {
+  /// Whether the energy error is below a hundredth of the work. The midpoint rule does not conserve the energy.
+  bool energy_error_acceptable(const Z&, const Increment<Real, n>& u) const {
     if (rule_.points == 1) return true;
     const Work work = finer_work(u);
     return Real(100) * abs(work.gain) <= work.size;
   }
 
-  /// What one more point sees: the energy gained, and the sizes of its terms.
+  /// The energy gain with one more point, and the sizes of its terms.
   struct Work {
     Real gain{0};
     Real size{0};
@@ -195,8 +198,8 @@ class GeneralElement : public SegmentEquations<P, R> {
   using Base::unit_;
   static constexpr auto epsilon = Epsilon<Real>{};
 
-  /// sum = kappa int J grad H; k_t the tangent; noise the sum of the absolute values of what enters the target, with
-  /// what coordinates rounded to epsilon change in it.
+  /// Computes sum = kappa int J grad H, the Jacobian k_t, and noise: the sum of the absolute values of the terms of the
+  /// target, plus their changes by coordinates rounded to epsilon.
   void integrate(const Increment<Real, n>& u, Z& sum, Z& noise, Matrix<Real, m>& k_t) const {
     const std::size_t size = q0_.size();
     const V middle_q = detail::midpoint<Real>(q0_, u.q);
@@ -211,7 +214,7 @@ class GeneralElement : public SegmentEquations<P, R> {
       const V p = detail::on_segment(middle_p, rule_.offset[l], u.p);
       gradient(problem_, q, p, dq, dp);
       hessian(problem_, q, p, qq, qp, pp);
-      const Real part = detail::golden<Real>() * rule_.b[l];
+      const Real part = detail::golden_ratio<Real>() * rule_.b[l];
       const Real weight = h_ * rule_.b[l];
       const Real slope = weight * (Real(0.5) + rule_.offset[l]);
       for (std::size_t i = 0; i < size; ++i) {

@@ -1,4 +1,4 @@
-// A method out of the equations of its steps: the loop around Newton that is the same for all of them.
+// Makes a method from the equations of its steps, with the loop around Newton that all of them share.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace hamflow {
 
-/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2; unset where H has no second derivatives.
+/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2; unset if H has no second derivatives.
 template <class P, class Real, std::size_t N>
 double inverse_mass_condition(const P& problem, const Vector<Real, N>& q, const Vector<Real, N>& p) {
   if constexpr (!Smooth<P>)
@@ -26,8 +26,8 @@ double inverse_mass_condition(const P& problem, const Vector<Real, N>& q, const 
   }
 }
 
-/// One step of the method that the equations E define. What Newton remembers, and what of E::Setup changes, is part of
-/// a run's state. Increments are added with compensation where the arithmetic has it.
+/// One step of the method that the equations E define. The memory of Newton and the changing part of E::Setup belong to
+/// the state of a run. Increments are added with compensation if the arithmetic has it.
 template <class P, Arithmetic A, class E>
 class ImplicitMethod {
  public:
@@ -49,38 +49,38 @@ class ImplicitMethod {
                 "detail/methods/implicit/equations.hpp");
   static_assert(
       !A::exact_undo,
-      "hamflow: the lattice needs an explicit splitting method: an implicit step is no bijection of the lattice");
+      "hamflow: the lattice needs an explicit splitting method: an implicit step is not a bijection of the lattice");
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = Real;
   using Unknowns = typename E::Unknowns;
   using Equations = E;
 
-  /// @param options those of E::Setup
+  /// @param options of E::Setup
   template <class Options>
   ImplicitMethod(const P& problem, const Options& options) : setup_(problem, options), options_(setup_.newton()) {
-    if constexpr (goes_straight) {
-      straight_ = !options_.tolerance && !options_.diagnostics && !setup_.automatic();
+    if constexpr (has_fast_path) {
+      uses_fast_path_ = !options_.tolerance && !options_.diagnostics && !setup_.automatic();
     }
   }
 
   MethodInfo info() const { return setup_.info(); }
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return counted(problem, h, z, nullptr); }
-  /// The step, and its unknowns; of no use where effort() counts one more step that was halved.
+  /// Takes a step and returns its unknowns, which are invalid if effort() counts one more halved step.
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z, Unknowns& unknowns) {
     return counted(problem, h, z, &unknowns);
   }
 
-  /// What is remembered, guesses and the points of "auto", belongs to steps of one length in one direction.
+  /// Drops the guesses and the points of "auto", which belong to steps of one length in one direction.
   void invalidate() {
     newton_.forget();
     if constexpr (requires { setup_.restart(); }) {
       if (setup_.automatic()) setup_.restart();
     }
   }
-  /// The state was changed on the way: guesses are dropped. Points that "auto" has found stay: found anew behind every
-  /// bounce they would be the fewest that do, and what those leave of the energy has a sign (docs/design.md, Walls).
+  /// Drops the guesses after the state was changed. The points of "auto" are kept: found again after every bounce they
+  /// would be the fewest possible, and their energy error has a fixed sign (docs/design.md, Walls).
   void forget_guesses() { newton_.forget(); }
   Effort effort() const { return effort_; }
   template <class Archive>
@@ -89,12 +89,12 @@ class ImplicitMethod {
   }
   const Newton<E>& newton() const { return newton_; }
   const typename E::Setup& setup() const { return setup_; }
-  /// After steps that were taken in lanes: what the last one left, and the work of all.
+  /// Continues after steps that were taken in lanes, with the memory of the last one and the work of all.
   void go_on(const typename E::Memory& memory, const Effort& effort) {
     newton_.remember(memory);
     effort_ = effort;
   }
-  /// Of the last step and over all of them; unset unless asked for.
+  /// The diagnostics of the last step and over all steps; unset unless requested.
   StepDiagnostics diagnostics(const P& problem, const PhasePoint<A, n>& z) const {
     StepDiagnostics d;
     if (!options_.diagnostics) return d;
@@ -103,7 +103,7 @@ class ImplicitMethod {
     return d;
   }
 
-  /// Repeats the step that failed and reports every attempt: the cause, and in a second line the residuals. Changes
+  /// Repeats the failed step and reports the cause and, in a second line, the residuals of every attempt. Changes
   /// nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     ImplicitMethod again = *this;
@@ -111,14 +111,14 @@ class ImplicitMethod {
     NewtonLog log;
     again.options_.halve = false;
     (void)again.attempt(problem, h, copy, 0, nullptr, &log);
-    if constexpr (requires { again.setup_.hopeless(); }) {
+    if constexpr (requires { again.setup_.no_finer_rule_message(); }) {
       if (log.change_unseen()) {
-        return "H changes along the step by more than its rounding, although no rule of up to " +
+        return "H changes along the step by more than its rounding, although no quadrature of up to " +
                again.setup_.detail() +
-               " sees any gain: the step is far too long for them, or H has a kink or a jump there, as abs(x) has, "
-               "where no quadrature keeps the energy";
+               " detects a change: the step is far too long, or H has a kink or a jump there, such as abs(x), "
+               "at which no quadrature conserves the energy";
       }
-      if (log.too_coarse()) return again.setup_.hopeless();
+      if (log.too_coarse()) return again.setup_.no_finer_rule_message();
     }
     return solver_name(options_.iteration) + " did not converge in " + std::to_string(options_.max_iterations) +
            (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + again.setup_.detail() +
@@ -145,21 +145,21 @@ class ImplicitMethod {
 
  private:
   static constexpr int deepest_halving = 10;
-  /// Most steps go a road that the equations know by themselves, with the bits of Newton's.
-  static constexpr bool goes_straight = requires(const E& step, const typename E::Memory& memory) {
-    step.straight(memory, 1);
+  /// Whether the equations have a fast path for ordinary steps, with the bits of Newton's iteration.
+  static constexpr bool has_fast_path = requires(const E& step, const typename E::Memory& memory) {
+    step.fast_path(memory, 1);
   };
 
   static std::string end_of_solution(const NewtonLog& log) {
     if (log.solved_part() <= 0) return "";
-    return "; the solution that grows out of the beginning of the step could be followed to " +
-           shortest(log.solved_part()) + " of its length";
+    return "; the solution could be continued from the beginning of the step to " + shortest(log.solved_part()) +
+           " of its length";
   }
 
   [[gnu::always_inline]] Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {
     const long long before = effort_.linear_solves;
     const Outcome outcome =
-        solved_straight(problem, h, z, unknowns) ? Outcome::done : attempt(problem, h, z, 0, unknowns, nullptr);
+        solved_by_fast_path(problem, h, z, unknowns) ? Outcome::done : attempt(problem, h, z, 0, unknowns, nullptr);
     if (outcome != Outcome::done) return outcome;
     const long long solves = effort_.linear_solves - before;
     effort_.solves_min = effort_.steps == 0 || solves < effort_.solves_min ? solves : effort_.solves_min;
@@ -169,14 +169,14 @@ class ImplicitMethod {
     return outcome;
   }
 
-  /// The step, or, when it does not converge and halving is allowed, two steps of half its length.
+  /// Takes the step or, if it does not converge and halving is allowed, two steps of half its length.
   Outcome attempt(const P& problem, const Real& h, PhasePoint<A, n>& z, int depth, Unknowns* unknowns, NewtonLog* log) {
     const Vector<Real, n> q0 = z.positions();
     const Vector<Real, n> p0 = z.momenta();
     if (solve(problem, h, q0, p0, z, unknowns, log)) return Outcome::done;
     if (!options_.halve || depth == deepest_halving) return Outcome::not_converged;
     const PhasePoint<A, n> start = z;
-    const auto points = mark();
+    const auto points = current_rule();
     invalidate();
     for (int half = 0; half < 2; ++half) {
       const Outcome outcome = attempt(problem, h / 2, z, depth + 1, unknowns, log);
@@ -192,10 +192,10 @@ class ImplicitMethod {
     return Outcome::done;
   }
 
-  /// The points of "auto" that whole steps take: half steps find their own.
-  auto mark() const {
-    if constexpr (requires { setup_.mark(); }) {
-      return setup_.mark();
+  /// The points of "auto" for whole steps; half steps find theirs separately.
+  auto current_rule() const {
+    if constexpr (requires { setup_.current_rule(); }) {
+      return setup_.current_rule();
     } else {
       return nullptr;
     }
@@ -205,16 +205,17 @@ class ImplicitMethod {
     if constexpr (requires { setup_.return_to(points); }) setup_.return_to(points);
   }
 
-  /// In place, in the loop over steps: what others get the address of lies in memory on the way from step to step.
-  [[gnu::always_inline]] bool solved_straight(const P& problem, const Real& h, PhasePoint<A, n>& z,
-                                              Unknowns* unknowns) {
-    if constexpr (goes_straight) {
-      if (!straight_ || !newton_.trusts_memory()) [[unlikely]]
+  /// Inlined into the loop over steps, because data whose address is passed to another function cannot stay in
+  /// registers.
+  [[gnu::always_inline]] bool solved_by_fast_path(const P& problem, const Real& h, PhasePoint<A, n>& z,
+                                                  Unknowns* unknowns) {
+    if constexpr (has_fast_path) {
+      if (!uses_fast_path_ || !newton_.uses_memory()) [[unlikely]]
         return false;
       const Vector<Real, n> q0 = z.positions();
       const Vector<Real, n> p0 = z.momenta();
       const auto end =
-          E(setup_, problem, h, q0, p0, effort_).straight(newton_.memory().predicted(), options_.max_iterations);
+          E(setup_, problem, h, q0, p0, effort_).fast_path(newton_.memory().predicted(), options_.max_iterations);
       if (end.corrections == 0) [[unlikely]]
         return false;
       for (std::size_t i = 0; i < n; ++i) {
@@ -235,9 +236,9 @@ class ImplicitMethod {
              Unknowns* unknowns, NewtonLog* log) {
     Solution found;
     const E step(setup_, problem, h, q0, p0, effort_);
-    const auto verdict = newton_.solve(step, NewtonReport{options_, effort_, diagnostics_, log}, found);
-    if (!verdict.settled) [[unlikely]] {
-      const auto other = elsewhere(problem, h, q0, p0, verdict, found, log);
+    const auto first = newton_.solve(step, NewtonReport{options_, effort_, diagnostics_, log}, found);
+    if (!first.settled) [[unlikely]] {
+      const auto other = retry_from_other_guesses(problem, h, q0, p0, first, found, log);
       if (!other) return false;
       found = *other;
     }
@@ -257,7 +258,7 @@ class ImplicitMethod {
     return true;
   }
 
-  /// With all the digits that the arithmetic can keep.
+  /// Adds with all digits of the arithmetic.
   static void add(const typename A::Axis& axis, typename A::Stored& s, const Real& r) {
     if constexpr (requires { axis.add_keeping(s, r); }) {
       axis.add_keeping(s, r);
@@ -266,27 +267,26 @@ class ImplicitMethod {
     }
   }
 
-  // Both take values and return one: what solve() works on stays in registers.
-  [[gnu::cold, gnu::noinline]] std::optional<Solution> elsewhere(const P& problem, const Real& h,
-                                                                 const Vector<Real, n> q0, const Vector<Real, n> p0,
-                                                                 const typename Newton<E>::Verdict verdict,
-                                                                 Solution found, NewtonLog* log) {
+  // Both take and return values, so that the data of solve() stay in registers.
+  [[gnu::cold, gnu::noinline]] std::optional<Solution> retry_from_other_guesses(
+      const P& problem, const Real& h, const Vector<Real, n> q0, const Vector<Real, n> p0,
+      const typename Newton<E>::FirstAttempt first, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
-    if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), report, verdict, found)) return found;
-    if (verdict.refused) return {};
+    if (newton_.retry_from_other_guesses(E(setup_, problem, h, q0, p0, effort_), report, first, found)) return found;
+    if (first.refused) return {};
     if (options_.iteration == Iteration::fixed_point_or_newton) {
       NewtonOptions by_newton = options_;
       by_newton.iteration = Iteration::newton;
       by_newton.max_iterations = NewtonOptions{}.max_iterations;
       const NewtonReport again{by_newton, effort_, diagnostics_, log};
-      if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), again, {}, found)) return found;
+      if (newton_.retry_from_other_guesses(E(setup_, problem, h, q0, p0, effort_), again, {}, found)) return found;
     }
     if (options_.halve || options_.iteration != Iteration::newton) return {};
     return continued(problem, h, q0, p0, log);
   }
 
-  /// The solution that grows, with the length of the step, out of that of a sixteenth of it: the one that belongs to
-  /// the motion. It may end, where it meets another one, before the step does.
+  /// Continues the solution from a sixteenth of the step to the whole step: this branch belongs to the motion. It may
+  /// meet another branch and end before the whole step.
   [[gnu::cold, gnu::noinline]] std::optional<Solution> continued(const P& problem, const Real& h,
                                                                  const Vector<Real, n>& q0, const Vector<Real, n>& p0,
                                                                  NewtonLog* log) {
@@ -314,36 +314,37 @@ class ImplicitMethod {
     }
     if (log != nullptr) log->note_end_of_solution(solved);
     if (solved < 1) return {};
-    newton_.distrust_memory();
+    newton_.note_continued_step();
     return found;
   }
 
-  /// Solves the step with finer equations until they are fine enough. Those of a step that was not taken do not count.
+  /// Solves the step with finer equations until they are fine enough. If the step is not taken, the coarser ones are
+  /// restored.
   [[gnu::noinline]] std::optional<Solution> refined(const P& problem, const Real& h, const Vector<Real, n> q0,
                                                     const Vector<Real, n> p0, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
-    const auto before = setup_.mark();
+    const auto before = setup_.current_rule();
     for (;;) {
       const E step(setup_, problem, h, q0, p0, effort_);
       const bool coarse = step.too_coarse(found.x, found.taken);
       if (!coarse && !overlooks_a_change(step, problem, q0, p0, found)) return found;
       if (options_.tolerance && fine_without_tolerance(problem, h, q0, p0, found)) return found;
       const bool finer = setup_.refine();
-      if (!finer && !overlooks_a_change(step, problem, q0, p0, found, 16)) return found;  // what such forces round by
+      if (!finer && !overlooks_a_change(step, problem, q0, p0, found, 16)) return found;  // roundings of such forces
       if (log != nullptr) {
         log->restart();
         if (!coarse) log->note_change_unseen();
         if (!finer) log->note_too_coarse();
       }
       if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {
-        if (log == nullptr) setup_.return_to(before);  // a report names the last ones
+        if (log == nullptr) setup_.return_to(before);  // a report needs the last equations
         return {};
       }
     }
   }
 
-  /// Points are judged by what they see of the energy along the solution. A residual that a tolerance has left changes
-  /// it, too, which no point more would mend: then it is looked at along the solution to rounding.
+  /// Tests the points along the solution to rounding. The energy gain along a solution with a residual at the tolerance
+  /// includes the effect of that residual, which more points cannot reduce.
   [[gnu::noinline]] bool fine_without_tolerance(const P& problem, const Real& h, const Vector<Real, n>& q0,
                                                 const Vector<Real, n>& p0, Solution found) {
     NewtonOptions to_rounding = options_;
@@ -352,7 +353,7 @@ class ImplicitMethod {
     to_rounding.max_iterations = std::max(to_rounding.max_iterations, NewtonOptions{}.max_iterations);
     const NewtonReport report{to_rounding, effort_, diagnostics_, nullptr};
     const E step(setup_, problem, h, q0, p0, effort_);
-    Newton<E> trial = newton_;  // what it learns of guesses is no state of the run
+    Newton<E> trial = newton_;  // its memory of guesses does not belong to the state of the run
     return trial.solve_refined(step, report, found) && !step.too_coarse(found.x, found.taken) &&
            !overlooks_a_change(step, problem, q0, p0, found);
   }
@@ -382,7 +383,7 @@ class ImplicitMethod {
   Effort effort_{};
   StepDiagnostics diagnostics_{};
   Newton<E> newton_;
-  bool straight_ = false;  // nothing is asked for that the straight road does not tell
+  bool uses_fast_path_ = false;  // no requested output needs Newton's iteration
 };
 
 }  // namespace hamflow

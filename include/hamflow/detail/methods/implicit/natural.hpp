@@ -1,8 +1,8 @@
 // cg(1) for H = p^T M^-1 p/2 + V(q) with constant M.   [Gross1999, (2.61)-(2.64), (2.71)-(2.76)]
 //     q1 - q0 = h M^-1 (p0 + p1)/2,      p1 - p0 = h F,     F = -int_0^1 V'(q0 + alpha d) dalpha,  d = q1 - q0.
-// p is eliminated: Newton runs in d alone, on r(d) = h M^-1 (p0 + h F/2) - d with the exact tangent
+// p is eliminated: Newton's method solves r(d) = h M^-1 (p0 + h F/2) - d = 0 for d with the exact Jacobian
 //     K = I + (h^2/2) M^-1 int alpha V''(q0 + alpha d) dalpha.
-// p1 is p0 + h F, never 2 M d/h - p0, which would amplify rounding by 2 M/h.
+// p1 is computed as p0 + h F, because 2 M d/h - p0 would amplify rounding by 2 M/h.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace hamflow {
 
-/// The variables are d; impulses h F are remembered, from which the next is extrapolated.
+/// The variables are d; the memory consists of impulses h F, from which the next one is extrapolated.
 template <class P, class R>
 class NaturalElement : public SegmentEquations<P, R> {
   using Base = SegmentEquations<P, R>;
@@ -40,7 +40,7 @@ class NaturalElement : public SegmentEquations<P, R> {
   struct Point {
     V residual{};
     V sum{};     // kappa F
-    V target{};  // what d should be, h M^-1 (p0 + h F/2)
+    V target{};  // the d that follows from it, h M^-1 (p0 + h F/2)
     Matrix<Real, n> stiffness{};
   };
 
@@ -50,7 +50,7 @@ class NaturalElement : public SegmentEquations<P, R> {
         q0_(q0),
         p0_(p0),
         effort_(effort),
-        flight_(max_norm(terms_of_flight())) {}
+        flight_(max_norm(displacement_terms())) {}
 
   V last_state() const { return zeros_like(q0_); }
   V predicted() const {
@@ -62,10 +62,10 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   [[gnu::always_inline]] V started(const V& impulse) const { return displacement(impulse, Real(0.5)); }
 
-  /// The whole iteration at once, as it mostly goes (plane_road.hpp); where it goes otherwise nothing is counted.
-  [[gnu::always_inline]] PlaneEnd straight(const V& impulse,
-                                           int most) const requires TakesTwo<P> && std::same_as<Real, double> {
-    const PlaneEnd end = plane_road(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
+  /// The whole iteration for an ordinary step (plane_road.hpp). If the step is not ordinary, nothing is counted.
+  [[gnu::always_inline]] FastPathResult fast_path(const V& impulse,
+                                                  int most) const requires TakesTwo<P> && std::same_as<Real, double> {
+    const FastPathResult end = two_variable_fast_path(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
     const long long evaluations = static_cast<long long>(end.corrections) * rule_.points;
     effort_.force += evaluations;
     effort_.hessian += evaluations;
@@ -79,8 +79,8 @@ class NaturalElement : public SegmentEquations<P, R> {
     at.residual = zeros_like(d);
     for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] = at.target[i] - d[i];
   }
-  /// The residual without its own rounding. In the plane taken() makes up for that, out of the way of the solution.
-  void sharpen(const V& d, Point& at) const requires(n > 2) {
+  /// Removes the rounding of the residual. In the plane taken() does this, outside the chain of dependent operations.
+  void remove_residual_rounding(const V& d, Point& at) const requires(n > 2) {
     const V lost = lost_in_residual(at, half_impulse(at));
     for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] += lost[i];
   }
@@ -92,35 +92,36 @@ class NaturalElement : public SegmentEquations<P, R> {
     V column = zeros<Real, n>(size);
     for (std::size_t j = 0; j < size; ++j) {
       for (std::size_t i = 0; i < size; ++i) row[i] = at.stiffness[j][i];
-      velocity(problem_, row, column);  // M^-1 applied to column j; stiffness is symmetric
+      velocity(problem_, row, column);  // M^-1 times column j; stiffness is symmetric
       for (std::size_t i = 0; i < size; ++i) k[i][j] = factor * column[i];
       k[j][j] += Real(1);
     }
     return k;
   }
-  /// The residual cannot be computed better than to epsilon |target|, however far p0 and the impulse cancel in it at a
-  /// turning point, and the terms of M^-1 p with each other: |h| |M^-1| |p0|.
+  /// The residual is accurate at best to epsilon |target|; the terms of M^-1 p, |h| |M^-1| |p0|, count as well, because
+  /// p0 and the impulse cancel at a turning point, and the terms of M^-1 p may cancel each other.
   [[gnu::always_inline]] Correction<Real> measure(const V& d, const Point& at, const V& correction) const {
     return measured(flight_, at.target, d, correction);
   }
   template <class X>
-  [[gnu::always_inline]] static Correction<Real> measured(const Real& flight, const X& target, const X& d,
+  [[gnu::always_inline]] static Correction<Real> measured(const Real& free_displacement, const X& target, const X& d,
                                                           const X& correction) {
     X next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
-    return {max_norm(correction), epsilon * (larger(flight, max_norm(target)) + max_norm(next))};
+    return {max_norm(correction), epsilon * (larger(free_displacement, max_norm(target)) + max_norm(next))};
   }
-  /// The size of the target where its rounding hides the step, else 0: at a guess so far off that forces round by more
-  /// than the whole step, any correction looks small.
-  [[gnu::always_inline]] Real doubts(const V& d, const Point& at, const V& correction) const {
-    return doubted(flight_, at.target, d, correction);
+  /// The size of the target if its rounding hides the step, else 0. At a guess so bad that forces round by more than
+  /// the whole step, any correction looks small.
+  [[gnu::always_inline]] Real hidden_terms(const V& d, const Point& at, const V& correction) const {
+    return hidden_terms_of(flight_, at.target, d, correction);
   }
   template <class X>
-  [[gnu::always_inline]] static Real doubted(const Real& flight, const X& target, const X& d, const X& correction) {
+  [[gnu::always_inline]] static Real hidden_terms_of(const Real& free_displacement, const X& target, const X& d,
+                                                     const X& correction) {
     X next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
     const Real size = max_norm(target);
-    return hidden_by_rounding(Real(epsilon * size), larger(flight, max_norm(next))) ? size : Real(0);
+    return hidden_by_rounding(Real(epsilon * size), larger(free_displacement, max_norm(next))) ? size : Real(0);
   }
 
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at) const {
@@ -128,10 +129,10 @@ class NaturalElement : public SegmentEquations<P, R> {
     for (Real& x : impulse) x = unit_ * x;
     return {d, impulse};
   }
-  /// What the last correction changes is mostly less than half a unit of d and of the impulse. Added to what is rounded
-  /// already it would be lost, an error with the sign of the correction, hence a drift (3.5e-19 of the scale a step on
-  /// a pendulum, measured). So both are rounded once, with it. Nor may it keep the rounding of the residual for which
-  /// it was solved (1.3e-21, measured).
+  /// The last correction is usually less than half a unit in the last place of d and of the impulse. Added to rounded
+  /// values it would be lost, an error with the sign of the correction and hence a drift (3.5e-19 of the scale per step
+  /// on a pendulum, measured). Therefore both are rounded only once, together with the correction. The rounding of the
+  /// residual from which the correction was solved must be removed, too (1.3e-21, measured).
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const V& correction) const {
     const Expanded half = half_impulse(at);
     V c = correction;
@@ -141,21 +142,21 @@ class NaturalElement : public SegmentEquations<P, R> {
     }
     return taken(d, at, half, c);
   }
-  /// What the solution lacks where the residual has lost so much, in the plane.
+  /// The change of the solution by the rounding error of the residual, in the plane.
   template <class M, class X>
   [[gnu::always_inline]] static X made_up_for(const M& k, const X& lost) {
     Real from_identity(0);
     for (std::size_t i = 0; i < lost.size(); ++i) {
       for (std::size_t j = 0; j < lost.size(); ++j) from_identity += abs(k[i][j] - Real(i == j));
     }
-    // Where steps resolve the motion a division would cost more than the thirtieth that it adds.
+    // If steps resolve the motion, a division costs more than the thirtieth part that it would add.
     return from_identity < Real(0.03125) ? lost : hamflow::solve(k, lost);
   }
   V memory(const V&, const Increment<Real, n>& taken) const { return taken.p; }
 
-  /// The 2-norm of the seed's residual (2.63), (2/h) M (d - h M^-1 (p0 + h F/2)). The seed's programs iterate in q1 and
-  /// form d = q1 - q0 anew, which is what limits their residual to about (2/h) M |q| epsilon; so does its criterion
-  /// here.
+  /// The 2-norm of the residual (2.63) of [Gross1999], (2/h) M (d - h M^-1 (p0 + h F/2)). The programs of that thesis
+  /// iterate in q1 and compute d = q1 - q0 again, which limits their residual to about (2/h) M |q| epsilon; criterion
+  /// "seed" does the same.
   Real norm(const V& d, const Point& at) const {
     V r = at.residual;
     if (setup_.options().seed_criterion) {
@@ -167,13 +168,13 @@ class NaturalElement : public SegmentEquations<P, R> {
     return abs(Real(2) / h_) * sqrt(sum);
   }
 
-  /// Whether one more point changes the work done by the mean force, which is the energy error of the step, by more
-  /// than rounding can: two sums of at most s + 1 terms round by less than s + 4 units of |F| <= |F(middle)| + |V''|
-  /// |d|, the forces by what rounded coordinates make of them, |V''| |q| epsilon, three times that where terms cancel
-  /// as in a Lennard-Jones well. A bias of that size adds up to some tens of roundings of H over a part of an orbit,
-  /// however small h is; one in units of H would add up to 1/h of them.
-  /// Of many coordinates these absolute values add up to far more than roundings do, whose squares add up: there as
-  /// energy_gain.hpp has it. (Up to four their sum is at most twice the root of the sum of their squares.)
+  /// Whether one more point changes the work of the mean force, that is, the energy error of the step, by more than
+  /// rounding can. Two sums of at most s + 1 terms round by less than s + 4 units of |F| <= |F(middle)| + |V''| |d|.
+  /// Forces have the error |V''| |q| epsilon from rounded coordinates, and three times that if terms cancel as in a
+  /// Lennard-Jones well. A bias of that size accumulates to some tens of roundings of H over a part of an orbit, for
+  /// any h; a bias in units of H would accumulate to 1/h of them. With many coordinates the sum of absolute values is
+  /// far larger than that of independent rounding errors; then energy_gain.hpp is used. (For up to four it is at most
+  /// twice the root of the sum of squares.)
   bool too_coarse(const V&, const Increment<Real, n>& taken) const {
     if (q0_.size() > 4) {
       return detail::overlooks_a_gain(
@@ -192,25 +193,25 @@ class NaturalElement : public SegmentEquations<P, R> {
     force_and_hessian(problem_, middle, f, second);
     ++effort_.force;
     ++effort_.hessian;
-    const V flight = terms_of_flight();  // d itself rounds by these
+    const V free_displacement = displacement_terms();  // terms that determine the rounding of d
     Real rounding(0);
     for (std::size_t i = 0; i < d.size(); ++i) {
       Real units = terms * abs(f[i]);
       for (std::size_t j = 0; j < d.size(); ++j) {
-        units += abs(second[i][j]) * (3 * abs(middle[j]) + terms * abs(d[j]) + 4 * flight[j]);
+        units += abs(second[i][j]) * (3 * abs(middle[j]) + terms * abs(d[j]) + 4 * free_displacement[j]);
       }
       rounding += epsilon * abs(d[i]) * units;
     }
     return rounding;
   }
-  /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
-  bool believable(const V&, const Increment<Real, n>& taken) const {
+  /// Whether the energy error is below a hundredth of the work. The midpoint rule does not conserve the energy.
+  bool energy_error_acceptable(const V&, const Increment<Real, n>& taken) const {
     if (rule_.points == 1) return true;
     const detail::Gain<Real> work = finer_work(taken, 1);
     return Real(100) * abs(work.gain) <= work.size;
   }
 
-  /// What one point more sees beyond what the rule itself sees along a segment so near (energy_gain.hpp).
+  /// The gain with one more point minus that with the rule itself, along a neighbouring segment (energy_gain.hpp).
   [[gnu::cold, gnu::noinline]] Real gain_nearby(const Increment<Real, n>& taken, std::uint64_t draw) const {
     const Real unit = Real(1) / Real(1 << 24);
     V q = q0_;
@@ -233,7 +234,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     return work(gauss_rule<Real>(std::min(rule_.points + 1, most_gauss_points))) - work(rule_);
   }
 
-  /// What more points see of the energy gained.
+  /// The energy gain with more points.
   detail::Gain<Real> finer_work(const Increment<Real, n>& taken, int more = 1) const {
     const GaussRule<Real>& finer = gauss_rule<Real>(std::min(rule_.points + more, most_gauss_points));
     const V& d = taken.q;
@@ -266,7 +267,7 @@ class NaturalElement : public SegmentEquations<P, R> {
   static constexpr auto epsilon = Epsilon<Real>{};
 
   /// |h| |M^-1| |p0|, coordinate by coordinate.
-  V terms_of_flight() const {
+  V displacement_terms() const {
     V sizes = zeros_like(p0_);
     for (std::size_t i = 0; i < p0_.size(); ++i) {
       for (std::size_t j = 0; j < p0_.size(); ++j) sizes[i] += setup_.inverse_mass_sizes[i][j] * abs(p0_[j]);
@@ -285,7 +286,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     effort_.force += rule_.points;
     effort_.hessian += rule_.points;
   }
-  /// Large systems, point after point.
+  /// The same sums for large systems, point by point.
   void sum_points(const V& d, V& sum, Matrix<Real, n>& stiffness) const {
     const V middle = detail::midpoint<Real>(q0_, d);
     V f = zeros_like(d);
@@ -293,7 +294,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     sum = zeros_like(d);
     for (std::size_t l = 0; l < rule_.c.size(); ++l) {
       force_and_hessian(problem_, detail::on_segment(middle, rule_.offset[l], d), f, second);
-      const Real force_weight = detail::golden<Real>() * rule_.b[l];
+      const Real force_weight = detail::golden_ratio<Real>() * rule_.b[l];
       const Real weight = rule_.b[l] * (Real(0.5) + rule_.offset[l]);
       for (std::size_t i = 0; i < d.size(); ++i) {
         sum[i] += force_weight * f[i];
@@ -301,10 +302,11 @@ class NaturalElement : public SegmentEquations<P, R> {
       }
     }
   }
-  /// The points of a block come first, side by side, so that the compiler can evaluate several at once in vector
-  /// registers; then the sums, point after point.
+  /// Evaluates the points of a block together, so that the compiler can use vector registers, and then sums point by
+  /// point.
   [[gnu::always_inline]] void sum_blocks(const V& d, V& out, Matrix<Real, n>& stiffness) const {
-    constexpr std::size_t block = 32;  // more than a step commonly has; shorter ones get unrolled to no good
+    constexpr std::size_t block =
+        32;  // more points than a step usually has; shorter blocks are unrolled without benefit
     const auto s = static_cast<std::size_t>(rule_.points);
     Real forces[n][block];
     Real hessians[n][n][block];
@@ -321,7 +323,7 @@ class NaturalElement : public SegmentEquations<P, R> {
         Matrix<Real, n> second{};
         for (std::size_t i = 0; i < n; ++i) q[i] = middle[i] + offset[l] * d[i];
         force_and_hessian(problem_, q, f, second);
-        const Real force_weight = detail::golden<Real>() * b[l];
+        const Real force_weight = detail::golden_ratio<Real>() * b[l];
         const Real weight = b[l] * (half + offset[l]);
         for (std::size_t i = 0; i < n; ++i) {
           forces[i][l] = force_weight * f[i];
@@ -338,7 +340,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     out = sum;
   }
 
-  /// h M^-1 (p0 + factor x), where 2 factor x is an impulse.
+  /// h M^-1 (p0 + factor x); 2 factor x is an impulse.
   [[gnu::always_inline]] V displacement(const V& x, const Real& factor) const {
     V middle = zeros_like(p0_);
     V v = zeros_like(p0_);
@@ -348,7 +350,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     return v;
   }
 
-  /// A rounded value and what it has lost.
+  /// A rounded value and its rounding error.
   struct Expanded {
     V high{};
     V low{};
@@ -362,8 +364,8 @@ class NaturalElement : public SegmentEquations<P, R> {
     }
     return half;
   }
-  /// What the residual, h M^-1 (p0 + h F/2) - d, has lost to the rounding of its first term, epsilon |h M^-1 p0|. The
-  /// difference is exact near the solution.
+  /// The rounding error of the residual h M^-1 (p0 + h F/2) - d, which is that of its first term, epsilon |h M^-1 p0|,
+  /// because the difference is exact near the solution.
   [[gnu::always_inline]] V lost_in_residual(const Point& at, const Expanded& half) const {
     V middle = zeros_like(p0_);
     V lost = zeros_like(p0_);  // middle + lost = p0 + h F/2
@@ -380,7 +382,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     return rest;
   }
 
-  /// With the whole correction c. See above.
+  /// The same with the complete correction c.
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const Expanded& half, const V& c) const {
     V impulse = zeros_like(d);
     for (std::size_t i = 0; i < d.size(); ++i) {

@@ -1,15 +1,15 @@
-// Newton's iteration for the equations of a step, and where it starts.
+// Newton's iteration for the equations of a step, and its initial guesses.
 //
-// The first guess is extrapolated from the last steps; without memory it is the explicit predictor. Where it fails, the
-// predictor, the last state (as in the first thesis' programs) and a Newton whose steps are damped until the residual
-// shrinks are tried in turn, each with max_iterations of its own. Where all of them fail, ImplicitMethod follows the
-// solution of a short step to that of the whole one.
+// The first guess is extrapolated from the last steps; without memory it is the explicit predictor. If it fails, the
+// predictor, the last state (as in the programs of the first thesis) and a damped Newton iteration are tried in turn,
+// each with max_iterations corrections. If all fail, ImplicitMethod continues the solution of a short step to the whole
+// step.
 //
-// Where h is longer than the fastest motion, a polynomial through the last steps says nothing about the next one.
-// Newton may yet converge from there, to a root on the other side of a singularity, say. So, where the first guess lies
-// farther from the solution than the whole step is long, it is in *doubt*: steps then start from the last state, until
-// three extrapolations in a row would have been nearer. As long as guesses are good nothing of this costs an
-// evaluation.
+// If h is longer than the period of the fastest motion, a polynomial through the last steps does not predict the next
+// one. Newton may still converge from there, for example to a root on the other side of a singularity. Therefore, if
+// the distance of the first guess from the solution is larger than the whole step, it counts as a guess failure: steps
+// then start from the last state, until three extrapolations in a row would have been closer. With good guesses this
+// costs no evaluation.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/equations.hpp"
@@ -23,7 +23,7 @@
 namespace hamflow {
 
 namespace detail {
-/// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
+/// Equations whose Jacobian is computed on request; every Iteration can solve them.
 template <class E>
 concept AnyIteration = requires(typename E::Point& at) {
   { at.linearised } -> std::same_as<bool&>;
@@ -45,12 +45,12 @@ template <class M>
 }
 }  // namespace detail
 
-/// What Newton works with beside the equations: the options of a run, and what it reports.
+/// The options of a run, and the outputs of Newton.
 struct NewtonReport {
   const NewtonOptions& options;
   Effort& effort;
   StepDiagnostics& diagnostics;
-  NewtonLog* log;  // null but for the report of a failure
+  NewtonLog* log;  // null except for the report of a failure
 };
 
 template <StepEquations E>
@@ -64,107 +64,110 @@ class Newton {
     Increment<Real, E::n> taken{};  // z1 - z0
   };
 
-  /// How the first guess went.
-  struct Verdict {
-    bool settled = false;  // its solution is that of the step; else elsewhere() has to look
-    bool found = false;    // but it is a solution, from far away
+  /// The result of the first guess.
+  struct FirstAttempt {
+    bool settled = false;  // found the solution of the step; otherwise retry_from_other_guesses() is needed
+    bool found = false;    // found a solution, but far from the guess
     bool refused = false;  // criterion "seed"
     Guess start = Guess::extrapolated;
   };
 
-  /// Solves the step from its first guess. Where that is in doubt nothing is tried.
-  Verdict solve(const E& step, const NewtonReport& report, Solution& found) const {
-    if (doubt_ > 0) [[unlikely]]
+  /// Solves the step from its first guess. Does nothing after guess failures.
+  FirstAttempt solve(const E& step, const NewtonReport& report, Solution& found) const {
+    if (guess_failures_ > 0) [[unlikely]]
       return {};
     const Guess start = memory_.empty() ? Guess::predicted : Guess::extrapolated;
     found.x = memory_.empty() ? step.predicted() : step.started(memory_.predicted());
     Point at;
-    Course course;
+    IterationResult result;
     if (report.log != nullptr) report.log->attempt(start);
-    const Ending ending = iterate<false>(step, report, found, at, course);
-    return {ending == Ending::converged && !course.missed, ending == Ending::converged, ending == Ending::refused,
-            start};
+    const Ending ending = iterate<false>(step, report, found, at, result);
+    return {ending == Ending::converged && !result.guess_was_far, ending == Ending::converged,
+            ending == Ending::refused, start};
   }
-  /// The first guess has failed, is in doubt, or has led to a root from far away. @return whether a solution was found
-  [[gnu::cold, gnu::noinline]] bool elsewhere(const E& step, const NewtonReport& report, const Verdict& verdict,
-                                              Solution& found) {
-    if (verdict.refused) return false;
-    if (!verdict.found) return from_other_starts(step, report, found, verdict.start);
-    if (!believable(step, report, found)) {
+  /// To be called if the first guess failed, was not used, or led to a distant root. @return whether a solution was
+  /// found
+  [[gnu::cold, gnu::noinline]] bool retry_from_other_guesses(const E& step, const NewtonReport& report,
+                                                             const FirstAttempt& first, Solution& found) {
+    if (first.refused) return false;
+    if (!first.found) return from_other_starts(step, report, found, first.start);
+    if (!energy_error_acceptable(step, report, found)) {
       const Solution far = found;
-      if (!from_other_starts(step, report, found, verdict.start)) found = far;  // it solves the equations, after all
+      if (!from_other_starts(step, report, found, first.start)) found = far;  // it still solves the equations
     }
-    doubt_ = good_guesses_wanted;
+    guess_failures_ = good_guesses_needed;
     return true;
   }
-  /// From a guess that is neither extrapolated nor one of the usual starts.
+  /// Solves the step from the guess in `found`.
   [[gnu::cold, gnu::noinline]] bool solve_from(const E& step, const NewtonReport& report, Solution& found) const {
     Point at;
-    Course course;
-    return iterate<false>(step, report, found, at, course) == Ending::converged && believable(step, report, found);
+    IterationResult result;
+    return iterate<false>(step, report, found, at, result) == Ending::converged &&
+           energy_error_acceptable(step, report, found);
   }
-  /// The step was solved in such a way: what is extrapolated is in doubt.
-  void distrust_memory() {
+  /// Records that the step was solved by continuation, so that extrapolated guesses are not used.
+  void note_continued_step() {
     ++solved_[static_cast<int>(Guess::continued)];
-    doubt_ = good_guesses_wanted;
+    guess_failures_ = good_guesses_needed;
   }
-  /// Solves the step again, from its solution with coarser equations.
+  /// Solves the step again, from the solution of coarser equations.
   [[gnu::noinline]] bool solve_refined(const E& step, const NewtonReport& report, Solution& found) {
     Point at;
-    Course course;
+    IterationResult result;
     if (report.log != nullptr) report.log->attempt(Guess::converged);
-    const Ending ending = iterate<false>(step, report, found, at, course);
+    const Ending ending = iterate<false>(step, report, found, at, result);
     if (ending != Ending::diverged) return ending == Ending::converged;
     return from_other_starts(step, report, found, Guess::converged);
   }
 
-  /// After a step that was taken.
+  /// To be called after each step that is taken.
   void remember(const E& step, const Solution& found) { memory_.remember(step.memory(found.x, found.taken)); }
-  /// What is remembered belongs to steps of one length in one direction.
+  /// Drops the memory, which belongs to steps of one length in one direction.
   void forget() {
     memory_.forget();
-    doubt_ = 0;
+    guess_failures_ = 0;
   }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(memory_, doubt_);
+    ar(memory_, guess_failures_);
   }
-  /// For lanes: what is remembered, and whether the next step begins with it.
+  /// For lanes: the memory, and whether the next step starts from it.
   const auto& memory() const { return memory_; }
-  bool trusts_memory() const { return doubt_ == 0 && !memory_.empty(); }
+  bool uses_memory() const { return guess_failures_ == 0 && !memory_.empty(); }
   void remember(const typename E::Memory& memory) { memory_.remember(memory); }
-  /// How many steps were solved from there after the first guess had failed or was in doubt. No part of a run's state.
+  /// The number of steps solved from this guess after the first guess had failed or was not used. Not part of the state
+  /// of a run.
   long long solved_from(Guess start) const { return solved_[static_cast<int>(start)]; }
 
  private:
   enum class Ending {
     converged,
     diverged,
-    refused  // at rounding level above the tolerance, which criterion "seed" calls an error: a solution was found
+    refused  // a solution at rounding level, but above the tolerance: an error with criterion "seed"
   };
-  /// Of an iteration that converged.
-  struct Course {
-    bool missed = false;  // the first correction was larger than the terms of the step
-    Real noise{0};        // what the last correction was compared with
+  /// Facts about a converged iteration.
+  struct IterationResult {
+    bool guess_was_far = false;  // the first correction was larger than the terms of the step
+    Real noise{0};               // the noise with which the last correction was compared
   };
   static constexpr auto epsilon = Epsilon<Real>{};
 
-  /// A function of its own, with x by value and the rest where it is: fastest by far (measured; inlined into solve() a
-  /// step takes a quarter more).
+  /// Not inlined, with a local copy of x and references to the rest: this is the fastest form (measured; inlined into
+  /// solve() a step takes a quarter longer).
   template <bool damped>
   [[gnu::noinline]] Ending iterate(const E& step, const NewtonReport& report, Solution& found, Point& at,
-                                   Course& course) const {
+                                   IterationResult& result) const {
     const NewtonOptions& options = report.options;
     Variables x = found.x;
     Real noise(0);
-    bool at_rounding = false;  // no further correction can be told from rounding
+    bool at_rounding = false;  // a further correction would be rounding
     bool was_at_rounding = false;
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     [[maybe_unused]] Iteration iteration = first_iteration(options.iteration);
     NewtonProgress<Real> progress(detail::AnyIteration<E> ? convergence_of(iteration) : Convergence::quadratic);
-    [[maybe_unused]] Variables rounding{};   // of the residual, beside what its terms tell; empty: not asked for
-    [[maybe_unused]] Real rounded_terms(0);  // what its terms told there
+    [[maybe_unused]] Variables rounding{};   // of the residual, in addition to that of its terms; empty: not measured
+    [[maybe_unused]] Real rounded_terms(0);  // the noise of its terms at that iterate
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
     for (int k = 0;; ++k) {
       if constexpr (detail::AnyIteration<E>) {
@@ -172,8 +175,8 @@ class Newton {
       }
       if (!damped || !evaluated) step.evaluate(x, at);
       evaluated = false;
-      if constexpr (detail::StartsElsewhere<E>) {
-        // What was asked far from a solution, where forces are larger, is not true at one.
+      if constexpr (detail::EvaluatesNearbyStates<E>) {
+        // A measurement far from the solution, where forces are larger, is not valid near it.
         if (rounding.size() > 0 && detail::sum_of(at.noise) < rounded_terms / 2) {
           rounding = {};
           progress.restart();
@@ -181,7 +184,7 @@ class Newton {
         for (std::size_t i = 0; i < rounding.size(); ++i) at.noise[i] += rounding[i];
       }
       if (options.tolerance || report.log != nullptr || options.diagnostics) {
-        const Variables here = x;  // a copy: what has an address does not stay in registers
+        const Variables here = x;  // a copy, because a variable with an address does not stay in registers
         const Real norm = step.norm(here, at);
         if (report.log != nullptr) report.log->residual(static_cast<double>(norm));
         report.diagnostics.residual = static_cast<double>(norm);
@@ -191,7 +194,7 @@ class Newton {
             if (!small) ++report.effort.stagnated;
             found.taken = step.taken(x, at);
             found.x = x;
-            course = {progress.began_far_away(noise), noise};
+            result = {progress.began_far_away(noise), noise};
             return Ending::converged;
           }
         }
@@ -201,8 +204,8 @@ class Newton {
         if (report.log != nullptr) report.log->remark("at rounding level, above the tolerance");
         return Ending::refused;
       }
-      if constexpr (requires { step.sharpen(x, at); }) {
-        if (k > 0) step.sharpen(x, at);  // this correction is the last one, mostly
+      if constexpr (requires { step.remove_residual_rounding(x, at); }) {
+        if (k > 0) step.remove_residual_rounding(x, at);  // this correction is usually the last one
       }
       const auto solved = [&]() -> Variables {
         if constexpr (detail::AnyIteration<E>) {
@@ -222,14 +225,14 @@ class Newton {
       ++report.effort.linear_solves;
       Correction<Real> c = step.measure(x, at, correction);
       if constexpr (detail::AnyIteration<E>) {
-        // In a stiff step a correction is far smaller than the residual, which is what changes the energy and what a
-        // tangent of old leaves a part of.
+        // In a stiff step a correction is far smaller than the residual. The residual changes the energy, and a
+        // Jacobian from an earlier iteration leaves a part of it.
         if (iteration == Iteration::simplified) {
           c.size = larger(c.size, step.measure(x, at, at.residual).size);
         }
       }
       noise = c.noise;
-      Real total = c.size;  // NaN and infinity do not get lost in a sum, as they do in a maximum
+      Real total = c.size;  // a sum keeps NaN and infinity, a maximum may not
       for (std::size_t i = 0; i < x.size(); ++i) total += abs(correction[i]);
       if (shortened) progress.restart();
       const NewtonDecision decision = progress.judge(c.size, total, noise);
@@ -239,28 +242,28 @@ class Newton {
       }
       at_rounding = decision == NewtonDecision::settled;
       if constexpr (detail::AnyIteration<E>) {
-        // What a tangent of old leaves of the last correction is no more than rounding where the residual is. Where the
-        // unknowns round by more than that, it takes the tangent of the solution.
+        // With a Jacobian from an earlier iteration the error of the last correction is at rounding level if the
+        // residual is. If the unknowns round by more than that, the Jacobian at the solution is needed.
         if (!at_rounding && iteration == Iteration::simplified && progress.stalls() >= 2) {
           iteration = Iteration::newton;
           progress.restart(Convergence::quadratic);
         }
       }
       [[maybe_unused]] bool has_stalled = false;
-      if constexpr (detail::StartsElsewhere<E>) {
+      if constexpr (detail::EvaluatesNearbyStates<E>) {
         has_stalled = decision == NewtonDecision::stalled && rounding.size() == 0;
         if (has_stalled && iteration == Iteration::fixed_point) {
           at_rounding = max_norm(correction) <= Real(4) * detail::rounding_by_unknowns(step, x);
         }
       }
-      if constexpr (requires { step.doubts(x, at, correction); }) {
+      if constexpr (requires { step.hidden_terms(x, at, correction); }) {
         if (at_rounding) {
-          const Real terms = step.doubts(x, at, correction);
+          const Real terms = step.hidden_terms(x, at, correction);
           if (terms > Real(0) && progress.goes_on_with(terms)) [[unlikely]]
             at_rounding = false;
         }
       }
-      if constexpr (detail::StartsElsewhere<E>) {
+      if constexpr (detail::EvaluatesNearbyStates<E>) {
         if (!at_rounding && has_stalled) {
           rounding = detail::rounding_by_state(step, x);
           rounded_terms = detail::sum_of(at.noise);
@@ -269,17 +272,17 @@ class Newton {
       }
       was_at_rounding = was_at_rounding || at_rounding;
       if (at_rounding && !options.tolerance) {
-        if constexpr (requires { step.sharpen(x, at); }) {
-          // The guess was the solution, as it is of a constant force: what its residual had lost to rounding had a sign
-          // there, and with it the energy that walls bring back over and over.
+        if constexpr (requires { step.remove_residual_rounding(x, at); }) {
+          // The guess was the solution, as for a constant force. The rounding error of its residual then has a fixed
+          // sign, and so has the energy error, which accumulates with walls.
           if (k == 0) {
-            step.sharpen(x, at);
+            step.remove_residual_rounding(x, at);
             correction = solved();
           }
         }
         found.taken = step.taken(x, at, correction);
         found.x = x;
-        course = {progress.began_far_away(noise), noise};
+        result = {progress.began_far_away(noise), noise};
         return Ending::converged;
       }
       if constexpr (damped) {
@@ -296,8 +299,8 @@ class Newton {
     }
   }
 
-  /// x and `at` after a part of the correction, the longest of 1, 1/2, 1/4 ... that shrinks the residual by a quarter
-  /// of what Newton's linear model says.
+  /// Adds the largest part 1, 1/2, 1/4, ... of the correction that reduces the residual by at least a quarter of what
+  /// Newton's linear model predicts.
   static bool shorten(const E& step, Variables& x, Point& at, const Variables& correction, bool& shortened) {
     const Real now = step.norm(x, at);
     Real part(1);
@@ -317,53 +320,54 @@ class Newton {
     return false;
   }
 
-  /// @param tried the start that has failed already; `extrapolated` with doubt_ > 0: none
+  /// @param tried the guess that has failed already; `extrapolated` with guess_failures_ > 0: none
   [[gnu::cold, gnu::noinline]] bool from_other_starts(const E& step, const NewtonReport& report, Solution& found,
                                                       Guess tried) {
-    const bool in_doubt = doubt_ > 0;
-    const Guess order[] = {in_doubt ? Guess::last_state : Guess::predicted,
-                           in_doubt ? Guess::predicted : Guess::last_state, Guess::damped};
+    const bool has_failures = guess_failures_ > 0;
+    const Guess order[] = {has_failures ? Guess::last_state : Guess::predicted,
+                           has_failures ? Guess::predicted : Guess::last_state, Guess::damped};
     for (const Guess start : order) {
       if (start == tried) continue;
-      if (start == Guess::damped && report.options.iteration != Iteration::newton) continue;  // a part of a Newton step
+      if (start == Guess::damped && report.options.iteration != Iteration::newton)
+        continue;  // damping needs a Newton correction
       found.x = start == Guess::predicted ? step.predicted() : step.last_state();
       if (report.log != nullptr) report.log->attempt(start);
       Point at;
-      Course course;
-      const Ending ending = start == Guess::damped ? iterate<true>(step, report, found, at, course)
-                                                   : iterate<false>(step, report, found, at, course);
+      IterationResult result;
+      const Ending ending = start == Guess::damped ? iterate<true>(step, report, found, at, result)
+                                                   : iterate<false>(step, report, found, at, result);
       if (ending == Ending::refused) return false;
-      if (ending == Ending::diverged || !believable(step, report, found)) continue;
+      if (ending == Ending::diverged || !energy_error_acceptable(step, report, found)) continue;
       ++solved_[static_cast<int>(start)];
-      judge_extrapolation(step, found, at, course.noise);
+      judge_extrapolation(step, found, at, result.noise);
       return true;
     }
     return false;
   }
 
-  static bool believable(const E& step, const NewtonReport& report, const Solution& found) {
-    if constexpr (requires { step.believable(found.x, found.taken); }) {
-      if (!step.believable(found.x, found.taken)) {
-        if (report.log != nullptr) report.log->remark("a root that does not keep the energy");
+  static bool energy_error_acceptable(const E& step, const NewtonReport& report, const Solution& found) {
+    if constexpr (requires { step.energy_error_acceptable(found.x, found.taken); }) {
+      if (!step.energy_error_acceptable(found.x, found.taken)) {
+        if (report.log != nullptr) report.log->remark("a root that does not conserve the energy");
         return false;
       }
     }
     return true;
   }
 
-  /// Whether the extrapolated guess would have been nearer than the step is long.
+  /// Tests whether the distance of the extrapolated guess would have been smaller than the step.
   void judge_extrapolation(const E& step, const Solution& found, const Point& at, const Real& noise) {
     bool good = false;
-    if (doubt_ > 0 && !memory_.empty()) {
+    if (guess_failures_ > 0 && !memory_.empty()) {
       Variables difference = step.started(memory_.predicted());
       for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= found.x[i];
       good = epsilon * step.measure(found.x, at, difference).size <= noise;
     }
-    doubt_ = good_guesses_wanted_after(doubt_, good);
+    guess_failures_ = good_guesses_needed_after(guess_failures_, good);
   }
 
   typename detail::GuessesOf<E>::type memory_;
-  int doubt_ = 0;  // good extrapolations still wanted before one is a first guess again
+  int guess_failures_ = 0;  // number of good extrapolations still needed before one is used as first guess
   long long solved_[6] = {};
 };
 

@@ -1,4 +1,5 @@
-// What Newton did in a step that failed, in words. Written only when a failed step is repeated for its report.
+// The report of Newton's iteration in a failed step, in words. It is written only when the step is repeated for the
+// report.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +10,10 @@
 
 namespace hamflow {
 
-/// From where an attempt at a step starts.
+/// The initial guess of an attempt.
 enum class Guess { extrapolated, predicted, last_state, damped, converged, continued };
 
-/// All out of line: strings in the middle of an iteration cost it its registers.
+/// No function is inlined, because strings within the iteration would use its registers.
 class NewtonLog {
  public:
   [[gnu::cold, gnu::noinline]] void attempt(Guess from) {
@@ -26,7 +27,7 @@ class NewtonLog {
     ++attempts_;
     iterations_ = 0;
   }
-  /// Of many iterations the first and the last few are told.
+  /// Records a residual; of many iterations the first and the last few are reported.
   [[gnu::cold, gnu::noinline]] void residual(double norm) {
     const std::string number = (iterations_ == 0 ? "" : ", ") + shortest(norm);
     if (iterations_ < told) {
@@ -40,13 +41,13 @@ class NewtonLog {
     text_ = text() + " (" + ending + ")";
     iterations_ = 0;
   }
-  /// The equations are others from here on.
+  /// Restarts the report, because the equations have changed.
   [[gnu::cold, gnu::noinline]] void restart() {
     text_.clear();
     attempts_ = 0;
     iterations_ = 0;
   }
-  /// To how much of the step the solution that grows out of its beginning could be followed.
+  /// Records up to which part of the step the solution could be continued.
   void note_end_of_solution(double part) { solved_part_ = part; }
   void note_too_coarse() { too_coarse_ = true; }
   void note_change_unseen() { change_unseen_ = true; }
@@ -61,7 +62,7 @@ class NewtonLog {
   }
   int attempts() const { return attempts_; }
   bool too_coarse() const { return too_coarse_; }
-  /// 0: none was found, or nobody has looked.
+  /// That part; 0 if there was no solution or no continuation.
   double solved_part() const { return solved_part_; }
   bool change_unseen() const { return change_unseen_; }
 

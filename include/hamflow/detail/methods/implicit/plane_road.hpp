@@ -1,8 +1,8 @@
-// The road that nearly every step of cg(1) in the plane takes: Newton's corrections from the extrapolated guess until
-// NewtonProgress ends them, in doubles, with nothing to report. The same operations in the same order as
-// natural.hpp and newton.hpp, written out in plain numbers, which stay in registers: a step is one chain from guess to
-// guess, and what goes through memory on it, or is read there in pairs that were written one by one, costs a fifth. Two
-// Gauss points are evaluated in one register and added one after the other. A step that does not end there is Newton's.
+// The fast path of cg(1) for two coordinates, which nearly every step takes: Newton's corrections from the extrapolated
+// guess until NewtonProgress ends them, in double, without reports. It has the same operations in the same order as
+// natural.hpp and newton.hpp, on plain numbers that stay in registers: a step is one chain of dependent operations from
+// guess to guess, and passing numbers through memory, or reading pairs that were written separately, costs a fifth. Two
+// Gauss points are evaluated in one register and summed one after the other. All other steps are left to Newton.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace hamflow {
 
-/// A problem in the plane whose `force_and_hessian` takes Two as well as a number says so by a constant `takes_two`:
-/// it has no branches there, and no functions but roots.
+/// A problem in the plane with a constant `takes_two`: its `force_and_hessian` accepts Two as a number type, and has no
+/// branches and no functions except roots.
 template <class P>
 concept TakesTwo = P::dimension == 2 && requires {
   requires P::takes_two;
@@ -27,7 +27,7 @@ concept TakesTwo = P::dimension == 2 && requires {
 namespace detail {
 
 /// Sums over the points, kappa F and the entries of int alpha V''.
-struct PlaneSums {
+struct TwoVariableSums {
   double fx = 0, fy = 0, xx = 0, xy = 0, yy = 0;
   [[gnu::always_inline]] void add(double more_fx, double more_fy, double more_xx, double more_xy, double more_yy) {
     fx += more_fx;
@@ -38,11 +38,11 @@ struct PlaneSums {
   }
 };
 
-/// The last of an odd number of points stands in both lanes.
+/// The last of an odd number of points is in both lanes.
 template <class P>
-[[gnu::always_inline]] inline PlaneSums plane_sums(const P& problem, const GaussRule<double>& rule, double middle_x,
-                                                   double middle_y, double dx, double dy) {
-  PlaneSums sums;
+[[gnu::always_inline]] inline TwoVariableSums plane_sums(const P& problem, const GaussRule<double>& rule,
+                                                         double middle_x, double middle_y, double dx, double dy) {
+  TwoVariableSums sums;
   const double* offset = rule.offset.data();
   const double* b = rule.b.data();
   const int s = rule.points;
@@ -54,7 +54,7 @@ template <class P>
     Vector<Two, 2> f;
     Matrix<Two, 2> second;
     problem.force_and_hessian(q, f, second);
-    const Two of_force = golden<double>() * weights;
+    const Two of_force = golden_ratio<double>() * weights;
     const Two of_second = weights * (0.5 + offsets);
     const Two fx = of_force * f[0], fy = of_force * f[1];
     const Two xx = of_second * second[0][0], xy = of_second * second[0][1], yy = of_second * second[1][1];
@@ -66,19 +66,21 @@ template <class P>
 
 }  // namespace detail
 
-/// Where the road ends: z1 - z0, and after how many corrections; 0: nowhere. Two numbers, and no vectors of them, so
-/// that they stay in registers.
-struct PlaneEnd {
+/// The result of the fast path: z1 - z0 and the number of corrections, 0 if it did not converge. Plain numbers instead
+/// of vectors, so that they stay in registers.
+struct FastPathResult {
   int corrections = 0;
   Two d{};
   Two impulse{};
 };
 
-/// @param guess the impulse that is extrapolated   @param flight the largest |h| |M^-1| |p0|
+/// @param guess the extrapolated impulse @param free_displacement the largest |h| |M^-1| |p0|
 template <class P>
-[[gnu::always_inline]] inline PlaneEnd plane_road(const P& problem, const GaussRule<double>& rule, double h,
-                                                  const Vector<double, 2>& q0, const Vector<double, 2>& p0,
-                                                  const Vector<double, 2>& guess, double flight, int most) {
+[[gnu::always_inline]] inline FastPathResult two_variable_fast_path(const P& problem, const GaussRule<double>& rule,
+                                                                    double h, const Vector<double, 2>& q0,
+                                                                    const Vector<double, 2>& p0,
+                                                                    const Vector<double, 2>& guess,
+                                                                    double free_displacement, int most) {
   using V = Vector<double, 2>;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const auto velocity_of = [&](double x, double y) __attribute__((always_inline)) {
@@ -86,13 +88,13 @@ template <class P>
     velocity(problem, V{x, y}, v);
     return v;
   };
-  const double unit = 0.5 * (h / detail::golden<double>());
+  const double unit = 0.5 * (h / detail::golden_ratio<double>());
   const double factor = h * h / 2;
   const V start = velocity_of(p0[0] + 0.5 * guess[0], p0[1] + 0.5 * guess[1]);
   double dx = h * start[0], dy = h * start[1];
   NewtonProgress<double> progress;
   for (int k = 0; k < most; ++k) {
-    const detail::PlaneSums sums = detail::plane_sums(problem, rule, q0[0] + 0.5 * dx, q0[1] + 0.5 * dy, dx, dy);
+    const detail::TwoVariableSums sums = detail::plane_sums(problem, rule, q0[0] + 0.5 * dx, q0[1] + 0.5 * dy, dx, dy);
     const double half_x = unit * sums.fx, half_y = unit * sums.fy;
     const double middle_x = p0[0] + half_x, middle_y = p0[1] + half_y;
     const V v = velocity_of(middle_x, middle_y);
@@ -105,14 +107,15 @@ template <class P>
     const double ex = (rx * yy - ry * xy) * inverse_determinant, ey = (ry * xx - rx * yx) * inverse_determinant;
 
     const double size = std::max(std::abs(ex), std::abs(ey));
-    const double noise = epsilon * (std::max(flight, std::max(std::abs(target_x), std::abs(target_y))) +
+    const double noise = epsilon * (std::max(free_displacement, std::max(std::abs(target_x), std::abs(target_y))) +
                                     std::max(std::abs(dx + ex), std::abs(dy + ey)));
     const NewtonDecision decision = progress.judge(size, size + std::abs(ex) + std::abs(ey), noise);
     if (decision == NewtonDecision::not_finite) return {};
     if (decision == NewtonDecision::settled) {
       if (progress.began_far_away(noise)) return {};
       const double terms = std::max(std::abs(target_x), std::abs(target_y));
-      if (hidden_by_rounding(epsilon * terms, std::max(flight, std::max(std::abs(dx + ex), std::abs(dy + ey))))) {
+      if (hidden_by_rounding(epsilon * terms,
+                             std::max(free_displacement, std::max(std::abs(dx + ex), std::abs(dy + ey))))) {
         return {};
       }
       const double low_x = product_error(unit, sums.fx, half_x), low_y = product_error(unit, sums.fy, half_y);

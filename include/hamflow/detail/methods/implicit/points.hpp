@@ -1,6 +1,6 @@
-// The functions of a problem at several points at once. Entry a of point l stands at [a * point_stride + l]: numbers of
-// neighbouring points are neighbours, so that sums over points are loops over neighbours, and what is evaluated can be
-// evaluated for several points in one vector register. A problem behind virtual calls is called once for all of them.
+// The functions of a problem at several points at once. Entry a of point l is at [a * point_stride + l]: the numbers of
+// neighbouring points are contiguous, so that sums over points run over contiguous numbers and several points can be
+// evaluated in one vector register. A problem behind virtual calls is called once for all points.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// As many points are evaluated at once at most; more come in blocks.
+/// The largest number of points evaluated at once; more points are divided into blocks.
 inline constexpr std::size_t point_stride = 8;
 
 namespace detail {
@@ -45,7 +45,7 @@ void forces_at(const P& problem, std::size_t count, const S* q, S* f) {
   }
 }
 
-/// With V'' as well, entry (a, b) as entry a * size + b.
+/// The same with V'', whose entry (a, b) is entry a * size + b.
 template <class P, class S>
 void forces_and_hessians_at(const P& problem, std::size_t count, const S* q, S* f, S* h) {
   if constexpr (requires { problem.forces_and_hessians_at(count, q, f, h); }) {
@@ -83,7 +83,7 @@ void gradients_at(const P& problem, std::size_t count, const S* q, const S* p, S
   }
 }
 
-/// All second derivatives of H, entries as those of V''.
+/// All second derivatives of H, in the layout of V''.
 template <class P, class S>
 void hessians_at(const P& problem, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) {
   if constexpr (requires { problem.hessians_at(count, q, p, qq, qp, pp); }) {
@@ -105,7 +105,7 @@ void hessians_at(const P& problem, std::size_t count, const S* q, const S* p, S*
   }
 }
 
-/// Rows of numbers, one row of a block of points for each of `rows`: in place where their number is known.
+/// `rows` rows of numbers, each for a block of points; stored in place if their number is known at compile time.
 /// @tparam N the number, or `dynamic`
 template <class S, std::size_t N>
 using PointRows = Vector<S, N == dynamic ? dynamic : N * point_stride>;
@@ -118,7 +118,7 @@ PointRows<S, N> point_rows(std::size_t rows) {
   }
 }
 
-/// calls body(first, count) for blocks of points.
+/// Calls body(first, count) for blocks of points.
 template <class Body>
 void for_blocks(std::size_t points, const Body& body) {
   for (std::size_t first = 0; first < points; first += point_stride) {

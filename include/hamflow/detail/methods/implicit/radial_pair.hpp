@@ -1,20 +1,20 @@
-// One pair of bodies, or a body and the centre, on a step of eg(k): the force factor that keeps the energy.
-// [GrossBetschSteinmann2005]   With u(t) = |r|^2 along the trial polynomial, its value and rate at k Gauss points u_l,
-// u'_l, the pair's force is -2 (phi'_l + lambda u'_l) r_l. It does the work -[phi(u1) - phi(u0)] just for
+// One pair of bodies, or a body and the centre, in a step of eg(k): the force factor that conserves the energy.
+// [GrossBetschSteinmann2005] With u(t) = |r|^2 along the trial polynomial, its value and rate at k Gauss points u_l,
+// u'_l, the pair's force is -2 (phi'_l + lambda u'_l) r_l. It does the work -[phi(u1) - phi(u0)] exactly if
 //     lambda = (phi(u1) - phi(u0) - h sum_l b_l phi'_l u'_l)/(h sum_l b_l u'_l^2).
 // u' has degree 2 k - 1, so that u1 - u0 = h sum b_l u'_l, and with the divided difference phi[u0, u1] and
 // g_l = phi[u0, u1] - phi'_l, (x, y) = sum b_l x_l y_l,
 //     lambda u' = u' (u', g)/(u', u'),
-// the projection of g on u', without the cancellation of energies; for k = 1 it is g itself.
+// the projection of g on u', without cancellation of energies; for k = 1 it is g itself.
 //
-// It has no limit at u' = 0, at rest and on a circle: there it depends on the direction of u', and steps close to it
-// have no solution. Any u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work: chi = 1 takes g itself,
-// by which the factor is phi[u0, u1], and a circle stays one. So with
-//     rho = |u'|/(what u' changes by when g is added to the factor),
-// chi is 1 below 2, 0 above 8, and goes from one to the other as a polynomial with two continuous derivatives. For g
-// stands what is left of it where u' = 0, phi'[u0, u1] s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of
-// collocation in u, of order k + 1 in h. Where rho > 8 the step is the definition and nothing else: on an ellipse of
-// e = 0.1 with 63 steps to a period rho is 15 000 at its least, of e = 0.6 with 21 steps 12.
+// It has no limit at u' = 0, that is, at rest and on a circle: there it depends on the direction of u', and steps near
+// such states have no solution. u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work for any chi. chi
+// = 1 gives g itself, so that the factor is phi[u0, u1] and a circle remains a circle. With
+//     rho = |u'|/(the change of u' if g is added to the factor),
+// chi is 1 for rho < 2, 0 for rho > 8, and a polynomial with two continuous
+// derivatives in between. g is replaced by its value for u' = 0, phi'[u0, u1] s_l, where s_l = u_l - u0 - h sum_j a_lj
+// u'_j is the collocation error in u, of order k + 1 in h. For rho > 8 the step is exactly the definition: on an
+// ellipse with e = 0.1 and 63 steps per period rho is at least 15 000, with e = 0.6 and 21 steps at least 12.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@
 
 namespace hamflow {
 
-/// The law at a number, or along a dual number; of phi'' the value alone.
+/// The law at a number, or along a dual number; only the value of phi''.
 template <class P, class S>
 RadialLaw<S> law_at(const P& problem, const S& u) {
   if constexpr (IsDual<S>::value) {
@@ -39,8 +39,8 @@ RadialLaw<S> law_at(const P& problem, const S& u) {
   }
 }
 
-/// phi and phi' on tapes, for their divided differences: one for each side of the branches of a law, such as those of a
-/// cut-off, that has been met.
+/// phi and phi' on tapes, for their divided differences: one tape for each branch of a law (such as a cut-off) that has
+/// been reached.
 template <class R>
 class RecordedLaw {
  public:
@@ -48,14 +48,14 @@ class RecordedLaw {
   explicit RecordedLaw(const P& problem) {
     tapes_[0] = recorded(problem, R(5) / R(7));
   }
-  /// phi[a, b] and phi'[a, b]. Where a branch lies between a and b the difference of the values is taken as it is: its
-  /// rounding, over b - a, does the work of a rounding of phi.
+  /// phi[a, b] and phi'[a, b]. If a branch lies between a and b, the plain difference of the values is used: its
+  /// rounding, divided by b - a, does the work of a rounding of phi.
   template <class P, class S>
   std::pair<S, S> differences(const P& problem, const S& a, const S& b) const {
     std::pair<S, S> found;
     if (on_any(a, b, found)) return found;
     if (!on_any(a, a, found)) {
-      // What was met longest ago makes room.
+      // The least recently used tape is removed.
       std::move_backward(tapes_.begin(), tapes_.end() - 1, tapes_.end());
       tapes_[0] = recorded(problem, R(value_of(a)));
       if (on(*tapes_[0], a, b, found)) return found;
@@ -78,7 +78,7 @@ class RecordedLaw {
     return std::any_of(tapes_.begin(), tapes_.end(),
                        [&](const Recorded& tape) { return tape && on(*tape, a, b, found); });
   }
-  /// @return false where a or b lies on another side of a branch
+  /// @return false if a or b lies on another side of a branch
   template <class S>
   static bool on(const Tape<R>& tape, const S& a, const S& b, std::pair<S, S>& found) {
     Vector<Slope<S>, dynamic> nodes(tape.nodes.size());
@@ -89,7 +89,7 @@ class RecordedLaw {
     return true;
   }
 
-  mutable std::array<Recorded, 4> tapes_;  // follow from the law: no part of a run's memory
+  mutable std::array<Recorded, 4> tapes_;  // they follow from the law and are not part of the state of a run
 };
 
 /// Weights of k Gauss points, and N = A B^-1 - 1/2, antisymmetric.   [HLW2006, Sect. II.1.3]
@@ -123,21 +123,21 @@ struct GaussStages {
   }
 };
 
-/// At the points of a step.
+/// A pair at the points of a step.
 template <class S>
 struct RadialPair {
   static constexpr std::size_t most = largest_eg_degree;
   S start[3]{};    // x_a - x_b at the beginning of the step
   S r[most][3]{};  // differences of positions, at the points
-  S w[most][3]{};  // and of velocities
+  S w[most][3]{};  // differences of velocities
   S u[most]{};
   S rate[most]{};  // u'
   RadialLaw<S> law[most]{};
   S factor[most]{};              // phi'_l + lambda u'_l
-  base_scalar<S> reach[most]{};  // what u'_l rounds by, in units of epsilon
-  base_scalar<S> noise{};        // and then lambda u'_l
+  base_scalar<S> reach[most]{};  // rounding of u'_l in units of epsilon
+  base_scalar<S> noise{};        // the resulting rounding of lambda u'_l
 
-  /// From start, r, w and reach. @param strength of the pair over its reduced mass
+  /// Computes the factor from start, r, w and reach. @param strength of the pair divided by its reduced mass
   template <class P, class R>
   void complete(const P& problem, const RecordedLaw<R>& recorded, const GaussStages<R>& stages, const R& h,
                 std::size_t space, const R& strength) {
@@ -158,15 +158,17 @@ struct RadialPair {
       }
       law[l] = law_at(problem, u[l]);
     }
-    const auto [mean, bend] = recorded.differences(problem, u0, u1);
+    const auto [mean, slope_difference] = recorded.differences(problem, u0, u1);
     for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
-    if (k > 1) project(stages, h, u0, mean, bend, R(R(4) * h * strength));
+    if (k > 1) project(stages, h, u0, mean, slope_difference, R(R(4) * h * strength));
   }
 
  private:
-  /// @param mean, bend phi[u0, u1] and phi'[u0, u1]   @param response what a factor of 1 changes u' by, over u
+  /// @param mean, slope_difference phi[u0, u1] and phi'[u0, u1] @param response the change of u' by a factor of 1,
+  /// divided by u
   template <class R>
-  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const S& bend, const R& response) {
+  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const S& slope_difference,
+               const R& response) {
     const std::size_t k = stages.count;
     S gap[most];     // g
     S work(R(0));    // (u', g)
@@ -180,14 +182,14 @@ struct RadialPair {
       for (std::size_t j = 0; j < k; ++j) error = error - (h * stages.a(l, j)) * rate[j];
       work = work + stages.b[l] * (rate[l] * gap[l]);
       square = square + stages.b[l] * (rate[l] * rate[l]);
-      const S here = response * (u[l] * (bend * error));
+      const S here = response * (u[l] * (slope_difference * error));
       unit = unit + stages.b[l] * (here * here);
       largest = larger(largest, R(abs(value_of(gap[l]))));
       loose = larger(loose, reach[l]);
     }
     S kept(R(1));  // 1 - chi
     if (!(value_of(square) > R(64) * value_of(unit))) {
-      if (!(value_of(square) > R(4) * value_of(unit))) return;  // the mean
+      if (!(value_of(square) > R(4) * value_of(unit))) return;  // uses the mean
       const S x = (square - R(4) * unit) / (R(60) * unit);
       kept = x * x * x * (R(10) - x * (R(15) - R(6) * x));
     }

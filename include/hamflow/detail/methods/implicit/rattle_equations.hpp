@@ -1,8 +1,9 @@
 // The equations of one step of RATTLE, H = p^T M^-1 p/2 + V(q) with g(q) = 0:   [HLW2006, Sect. VII.1.4, (1.26)]
 //     P  = p0 - h/2 V'(q0) - g'(q0)^T lambda,    q1 = q0 + h M^-1 P,    g(q1) = 0,
 //     p1 = P - h/2 V'(q1) - g'(q1)^T mu,         g'(q1) M^-1 p1 = 0,
-// with multipliers in units of a momentum. Newton runs in lambda alone; mu solves linear equations. What is solved is
-// (g' M^-1 g'^T)(q0)^-1 g(q1)/h = 0, so that lambda moves by about the residual and every iteration can be used.
+// with multipliers in units of a momentum. Newton's method solves only for lambda; mu solves linear equations. The
+// equation is (g' M^-1 g'^T)(q0)^-1 g(q1)/h = 0, so that the correction of lambda is about the residual and every
+// iteration can be used.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,7 @@ class RattleEquations {
    public:
     static constexpr const char* residual_name = "|g|";
     Setup(const P& problem, const NewtonOptions& options) : options_(options), size_(degrees_of_freedom(problem)) {}
-    MethodInfo info() const { return {}; }  // that of the method these steps belong to
+    MethodInfo info() const { return {}; }  // Rattle has the info
     NewtonOptions newton() const { return options_; }
     std::string detail() const { return "a multiplier for each constraint"; }
     template <class Archive>
@@ -51,13 +52,13 @@ class RattleEquations {
     std::size_t size_;
   };
 
-  /// What is known at one lambda.
+  /// The values at one lambda.
   struct Point {
     Variables residual{};
     bool linearised = true;
     Matrix<Real, dynamic> tangent{};
     Variables g{};     // g(q1)
-    Variables size{};  // of the terms that g(q1) is made of
+    Variables size{};  // sizes of the terms of g(q1)
     V impulse{};       // P - p0
     V moved{};         // q1 - q0
     V position{};      // q1
@@ -67,7 +68,7 @@ class RattleEquations {
   RattleEquations(const Setup&, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
       : problem_(problem), h_(h), q0_(q0), p0_(p0), effort_(effort) {}
 
-  /// What moves along the constraints, with no regard to how they bend.
+  /// The multipliers without the curvature of the constraints.
   Variables predicted() const {
     const Begin& begin = this->begin();
     return multipliers(begin.rows, begin.with_mass, products(begin.rows, inverse_mass_times(problem_, begin.kicked)));
@@ -120,12 +121,12 @@ class RattleEquations {
     for (const Real& g : at.g) square += g * g;
     return sqrt(square);
   }
-  /// In units of the terms of each constraint, which may have units of its own.
+  /// In units of the terms of each constraint, because constraints may have different units.
   Correction<Real> measure(const Variables&, const Point& at, const Variables&) const {
     Real largest(0);
     for (std::size_t k = 0; k < at.g.size(); ++k) {
       const Real part = at.g[k] == Real(0) ? Real(0) : Real(abs(at.g[k]) / at.size[k]);
-      largest = part <= largest ? largest : part;  // NaN is kept
+      largest = part <= largest ? largest : part;  // keeps NaN
     }
     return {largest, std::numeric_limits<Real>::epsilon()};
   }
@@ -196,10 +197,10 @@ class RattleEquations {
   }
 
  private:
-  /// What a step begins with, computed when it is first asked for: equations that are differentiated stand nowhere.
+  /// Values at the start of a step, computed on first use, because equations that are differentiated have no start.
   struct Begin {
     V kick{};    // -h/2 V'(q0)
-    V kicked{};  // p0 with it
+    V kicked{};  // p0 plus the kick
     Rows rows{};
     Rows with_mass{};
   };
@@ -224,9 +225,9 @@ class RattleEquations {
     evaluate(lambda, at);
     return at;
   }
-  /// Newton predicts the next correction from the largest residual of all constraints: where one of them hardly bends
-  /// and another does, what it predicts is too small. Here g is known at the end, so that it is brought to its
-  /// rounding; where it is there already, as nearly always, nothing changes.
+  /// Reduces g at the end of the step to its rounding. Newton predicts the next correction from the largest residual of
+  /// all constraints, which is too small if one constraint is nearly linear and another is not. In nearly all steps g
+  /// is at its rounding already and nothing changes.
   void settle(Variables& lambda, Point& end) const {
     constexpr int most = 3;
     for (int more = 0; more < most; ++more) {

@@ -1,4 +1,4 @@
-// H as a recording, from which its differences are taken without cancellation (detail/numerics/slope.hpp).
+// H as a recording, to compute its differences without cancellation (detail/numerics/slope.hpp).
 #pragma once
 
 #include <memory>
@@ -27,21 +27,21 @@ Vector<base_scalar<S>, dynamic> values_of(const Vector<S, dynamic>& z) {
 }
 }  // namespace detail
 
-/// Functions of z = (q, p) on a tape that is recorded anew where a branch of theirs changes.
+/// Functions of z = (q, p) on a tape, which is recorded again if a branch changes.
 template <class P, class R>
 class RecordedFunctions {
  public:
   static constexpr std::size_t n = P::dimension;
-  /// @param record(problem, q, p): the tape
+  /// @param record(problem, q, p) makes the tape
   template <class Record>
   RecordedFunctions(const P& problem, const Record& record) : record_(record) {
     const auto [q, p] = detail::any_state<R, n>(problem);
     tape_ = std::make_shared<const Tape<R>>(record(problem, q, p));
   }
 
-  /// Calls take(k, slope) for the slopes (f_k(z + t s) - f_k(z))/t of all functions, at t = 0 their derivatives along
-  /// s.
-  /// @return false where z and z + t s lie on two sides of a branch
+  /// Calls take(k, slope) with the slopes (f_k(z + t s) - f_k(z))/t of all functions; for t = 0 these are derivatives
+  /// along s.
+  /// @return false if z and z + t s lie on different sides of a branch
   template <class S, class Take>
   bool slopes(const P& problem, const Vector<S, dynamic>& z, const Vector<S, dynamic>& s, const S& t,
               const Take& take) const {
@@ -63,7 +63,7 @@ class RecordedFunctions {
 
  private:
   Tape<R> (*record_)(const P&, const Vector<R, n>&, const Vector<R, n>&);
-  mutable std::shared_ptr<const Tape<R>> tape_;  // follows from the state: no part of a run's memory
+  mutable std::shared_ptr<const Tape<R>> tape_;  // follows from the state and is not part of the state of a run
 };
 
 /// H.
@@ -83,7 +83,7 @@ class RecordedEnergy {
     const auto [q1, p1] = detail::coordinates_and_momenta<P::dimension>(end);
     return (energy(problem, q1, p1) - energy(problem, q0, p0)) / t;
   }
-  /// The same for numbers in which the problem itself has no functions. @return false where a branch lies between
+  /// The same for number types that the problem does not support. @return false if a branch lies in between
   template <class S>
   bool slope_on_tape(const P& problem, const Vector<S, dynamic>& z, const Vector<S, dynamic>& s, const S& t,
                      S& found) const {

@@ -1,4 +1,4 @@
-// What rounding makes of the residual of a step's equations where its terms do not tell.
+// Measures the rounding of the residual of a step's equations if its terms do not show it.
 #pragma once
 
 #include <concepts>
@@ -10,17 +10,17 @@
 
 namespace hamflow::detail {
 
-/// Whose residual can be asked for from a state nearby, too.
+/// Equations whose residual can be evaluated at a neighbouring state.
 template <class E>
-concept StartsElsewhere = requires(const E& step, typename E::Point& at) {
+concept EvaluatesNearbyStates = requires(const E& step, typename E::Point& at) {
   step.from(step.positions(), step.momenta());
   at.noise;
 };
 
-/// By how much the residual moves, entry by entry and in units of epsilon, when the state moves within its rounding, by
-/// one or two units, and when the unknowns move by that: sixteen times the largest of eight draws, as an iteration sums
-/// up several such roundings. What an iteration takes for noise are the terms of a force; where coordinates are large
-/// beside their differences (bodies far from the origin, a smooth chain) rounding is far more.
+/// The change of the residual, entry by entry and in units of epsilon, if the state and the unknowns change within
+/// their rounding, by one or two units: sixteen times the largest of eight draws, since an iteration sums several such
+/// roundings. An iteration estimates noise from the terms of a force; if coordinates are large compared with their
+/// differences (bodies far from the origin, a smooth chain), the rounding is far larger.
 template <class E>
 [[gnu::cold, gnu::noinline]] typename E::Variables rounding_by_state(const E& step, const typename E::Variables& x) {
   using Real = typename E::Real;
@@ -53,12 +53,12 @@ template <class E>
   return most;
 }
 
-/// What the residual rounds by where neither its terms nor a state moved within its rounding tell of it: exp(x) -
-/// exp(y) of small x and y rounds by a unit of 1, and of many particles, most of them nearly at rest, a few are where a
-/// bit of that unit comes and goes with any correction. The largest entry of eight second differences, when the
-/// unknowns move by 2^-26 of themselves and more. Those of rounding are as large for moves 16 times as large, where
-/// those of a smooth residual are 256 times as large, and differ from draw to draw, where those of a jump do not; 0
-/// where that is not seen.
+/// The rounding of the residual if neither its terms nor changes of the state within its rounding show it: exp(x) -
+/// exp(y) for small x and y rounds by a unit of 1, and among many particles nearly at rest a few lie where a correction
+/// switches a bit of that unit. It is the largest entry of eight second differences, for relative changes of the
+/// unknowns by 2^-26 and more. Rounding gives equal second differences for changes 16 times as large, while a smooth
+/// residual gives 256 times as large ones; and rounding differs from draw to draw, while a jump does not. 0 if this is
+/// not found.
 template <class E>
 [[gnu::cold, gnu::noinline]] typename E::Real rounding_by_unknowns(const E& step, const typename E::Variables& x) {
   using Real = typename E::Real;
@@ -80,7 +80,7 @@ template <class E>
   });
 }
 
-/// Of what the terms of forces round by, entry by entry: how large they are at an iterate.
+/// The sum of the rounding of the terms of forces at an iterate.
 template <class R, std::size_t N>
 R sum_of(const Vector<R, N>& all) {
   R sum(0);

@@ -1,6 +1,6 @@
-// What the three ways to solve cg(1) share: the options, the Gauss rule, points on the segment from z0 to z1 = z0 + u,
-// and the one equation that all of them solve, which the verification differentiates: a way that solved something else
-// would be caught.   [Gross1999, (1.43), (1.44)]
+// Shared by the three solvers of cg(1): the options, the Gauss rule, points on the segment from z0 to z1 = z0 + u, and
+// the equation that all of them solve. The verification differentiates this equation, so that it detects a solver of
+// another equation.   [Gross1999, (1.43), (1.44)]
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ namespace hamflow {
 
 namespace detail {
 
-/// x0 + d/2. The points of the segment are middle + offset d with offsets symmetric to the last bit: were they
-/// x0 + c d, the rounding of c would tilt every step the same way, by about epsilon d.V''d, and the energy would drift.
+/// x0 + d/2. The points of the segment are middle + offset d with exactly symmetric offsets. With x0 + c d, the
+/// rounding of c would bias every step in the same direction, by about epsilon d.V''d, and the energy would drift.
 template <class Real, class S, std::size_t N>
 Vector<S, N> midpoint(const Vector<S, N>& x0, const Vector<S, N>& d) {
   Vector<S, N> middle = zeros_like(x0);
@@ -32,7 +32,7 @@ Vector<S, N> on_segment(const Vector<S, N>& middle, const Real& offset, const Ve
   return x;
 }
 
-/// (q, p) in one vector, as unknowns of a step, and back.
+/// Combines (q, p) into one vector of unknowns, and splits it again.
 template <std::size_t N>
 inline constexpr std::size_t twice = N == dynamic ? dynamic : 2 * N;
 template <class S, std::size_t N>
@@ -57,14 +57,14 @@ Increment<S, N> halves(const Vector<S, M>& z) {
 
 }  // namespace detail
 
-/// Options and Gauss rule, which "auto" makes finer during a run.
+/// Options and Gauss rule, which "auto" refines during a run.
 template <class Real>
 class SegmentSetup {
  public:
   static constexpr const char* residual_name = "residual (2.63)";
 
   explicit SegmentSetup(const CgOptions& options) : options_(options) { restart(); }  // NOLINT: restart() sets the rule
-  /// The points of a fresh run.
+  /// Resets to the points of a new run.
   void restart() { rule_ = &gauss_rule<Real>(options_.quadrature > 0 ? options_.quadrature : 1); }
 
   MethodInfo info() const { return describe(options_); }
@@ -78,17 +78,17 @@ class SegmentSetup {
   }
 
   bool automatic() const { return options_.quadrature == 0; }
-  /// One more point than there are is needed to judge.
+  /// Adds a point; returns false at the limit, since the test needs one point more.
   bool refine() {
     if (rule_->points == most_gauss_points - 1) return false;
     rule_ = &gauss_rule<Real>(rule_->points + 1);
     return true;
   }
-  std::string hopeless() const {
+  std::string no_finer_rule_message() const {
     return "the force varies so much along the step, or the step is so stiff, that " + detail() +
-           " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
+           " do not keep the energy error at rounding level; a fixed number as method.quadrature skips this test";
   }
-  const GaussRule<Real>* mark() const { return rule_; }
+  const GaussRule<Real>* current_rule() const { return rule_; }
   void return_to(const GaussRule<Real>* rule) { rule_ = rule; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -146,7 +146,7 @@ class SegmentEquations {
 
  protected:
   SegmentEquations(const P& problem, const Real& h, const GaussRule<Real>& rule)
-      : problem_(problem), h_(h), unit_(h / detail::golden<Real>()), rule_(rule) {}
+      : problem_(problem), h_(h), unit_(h / detail::golden_ratio<Real>()), rule_(rule) {}
 
   const P& problem_;
   const Real h_;

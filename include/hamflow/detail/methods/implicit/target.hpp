@@ -1,6 +1,6 @@
-// What equations of the form  x = (h/kappa) s(x)  have in common: unknowns x, in dynamic rows, their target (h/kappa)
-// s, the residual target - x, and Newton's tangent 1 - d target/dx. Roundings are treated as in natural.hpp: the
-// product with h/kappa is rounded once, together with the last correction.
+// Base of equations of the form x = (h/kappa) s(x): unknowns x in dynamic rows, their target (h/kappa) s, the residual
+// target - x, and the Jacobian 1 - d target/dx. Rounding is treated as in natural.hpp: the product with h/kappa is
+// rounded once, together with the last correction.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/newton.hpp"
@@ -9,19 +9,19 @@
 
 namespace hamflow {
 
-/// What is known at one x.
+/// The values at one x.
 template <class Real>
 struct TargetPoint {
   using Rows = Vector<Real, dynamic>;
   Rows residual{};
   Rows sum{};     // s
   Rows target{};  // (h/kappa) s
-  Rows noise{};   // what the target rounds by, in units of epsilon, entry by entry: sizes of terms, not of sums
+  Rows noise{};   // rounding of the target in units of epsilon, entry by entry: sizes of terms, not of sums
   Matrix<Real, dynamic> tangent{};  // 1 - d target/dx
-  bool linearised = true;           // evaluate() is to compute noise of second order and tangent, too
+  bool linearised = true;           // evaluate() computes noise of second order and the Jacobian, too
 };
 
-/// Newton's questions about such equations.
+/// The functions of such equations that Newton needs.
 template <class Real>
 class TargetEquations {
  public:
@@ -34,26 +34,27 @@ class TargetEquations {
     for (const Real& r : at.residual) sum += r * r;
     return sqrt(sum);
   }
-  /// The largest correction in units of its noise: entries have units of their own. A correction of an entry that was 0
-  /// is as large as the entry, and no larger: what looks like more makes the next one look too good by comparison.
+  /// The largest correction in units of its noise, because entries may have different units. The correction of an entry
+  /// that was 0 counts as large as the entry, because an overestimate would make the next correction look too good.
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     constexpr auto epsilon = Epsilon<Real>{};
     Real distance(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Real size = abs(correction[i]);
       const Real unit = epsilon * larger(Real(at.noise[i] + abs(x[i])), size);
-      if (!(unit <= std::numeric_limits<Real>::max())) return {unit, Real(1)};  // nothing is small beside infinity
+      if (!(unit <= std::numeric_limits<Real>::max()))
+        return {unit, Real(1)};  // no correction is small if the noise is infinite
       const Real here = size / larger(unit, std::numeric_limits<Real>::min());
       distance = here <= distance ? distance : here;
     }
     return {distance, Real(1)};
   }
 
-  /// How large terms are of which far more is taken for rounding than the rounding of the step; 0: none. At an iterate
-  /// beside a singularity, where forces round by more than the whole step, any correction and any residual look small;
-  /// at the next one, away from there, they do not. Newton's last correction is some 10^-8 of a step, and what remains
-  /// of the residual that times the stiffness.
-  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  /// The size of the terms if their rounding is far larger than that of the step, else 0. At an iterate near a
+  /// singularity, where forces round by more than the whole step, any correction and any residual look small; at the
+  /// next iterate, away from it, they do not. Newton's last correction is about 10^-8 of a step, and the remaining
+  /// residual is that times the stiffness.
+  Real hidden_terms(const Variables& x, const Point& at, const Variables& correction) const {
     Real step(0);
     Real moved(0);
     Real left(0);
@@ -67,24 +68,24 @@ class TargetEquations {
   }
 
  protected:
-  explicit TargetEquations(const Real& h) : h_(h), unit_(h / detail::golden<Real>()) {}
+  explicit TargetEquations(const Real& h) : h_(h), unit_(h / detail::golden_ratio<Real>()) {}
 
-  /// Zeros, and a tangent of zeros where one is wanted.
+  /// Sets all values to zero, and the Jacobian if it is requested.
   static void clear(Point& at, std::size_t size) {
     at.sum = Variables(size);
     at.noise = at.sum;
     at.target = at.residual = at.sum;
     at.tangent = at.linearised ? Matrix<Real, dynamic>(size) : Matrix<Real, dynamic>();
   }
-  /// Target and residual of a sum that is complete.
+  /// Computes target and residual from the complete sum.
   void close(const Variables& x, Point& at) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
       at.target[i] = unit_ * at.sum[i];
       at.residual[i] = (at.target[i] - x[i]) + product_error(unit_, at.sum[i], at.target[i]);
     }
   }
-  /// x <- the target at x + correction, to second order where there is a tangent, rounded once. With a tangent of old,
-  /// or none, its product with the correction is the residual.
+  /// x <- the target at x + correction, rounded once; to second order with a Jacobian. With a Jacobian from an earlier
+  /// iteration, or none, its product with the correction is the residual.
   void move_to_target(Variables& x, const Point& at, const Variables& correction) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
       Real change = correction[i] - at.residual[i];
@@ -97,7 +98,7 @@ class TargetEquations {
   }
 
   const Real h_;
-  const Real unit_;  // h/kappa, see detail::golden
+  const Real unit_;  // h/kappa, see detail::golden_ratio
 };
 
 }  // namespace hamflow

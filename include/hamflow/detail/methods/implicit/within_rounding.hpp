@@ -1,4 +1,4 @@
-// Numbers moved at random by small parts of themselves: what that makes of a sum tells its rounding from the rest.
+// Small random relative changes of numbers. Their effect on a sum distinguishes rounding from a smooth dependence.
 #pragma once
 
 #include <cstdint>
@@ -8,31 +8,31 @@
 
 namespace hamflow::detail {
 
-/// How often a sum is asked.
+/// The number of random draws.
 inline constexpr std::uint64_t rounding_draws = 8;
 
-/// y moved by one or two units, up or down.
-/// @param unit relative   @param draw which of the draws   @param i which of the numbers that are moved in it
+/// y changed by one or two units, up or down.
+/// @param unit relative unit @param draw index of the draw @param i index of the number
 template <class Real>
 Real moved_by(const Real& unit, const Real& y, std::uint64_t draw, std::uint64_t i) {
   static constexpr int units[] = {-2, -1, 1, 2};
   return y + Real(units[counter_bits(draw, i) & 3]) * unit * y;
 }
 
-/// Within its rounding.
+/// y changed within its rounding.
 template <class Real>
 Real within_rounding(const Real& y, std::uint64_t draw, std::uint64_t i) {
   return moved_by(Real(Epsilon<Real>{} * Real(1)), y, draw, i);
 }
 
-/// The largest of eight second differences that rounding makes, found by what tells it from the rest: it is as large
-/// for moves 16 times as large, up to a factor of 8, and at both sizes some draw differs from the first by an eighth of
-/// the larger one. (Not by more: the point that all are differences from rounds as well.) 0 where that is not seen.
-/// @param second(part, draw): a vector of second differences, under moves by such a part
+/// The largest of eight second differences, if they are due to rounding: they are equal, up to a factor of 8, for
+/// changes 16 times as large, and at both sizes some draw differs from the first by an eighth of the larger one. (Not
+/// by more, because the common base point has a rounding error, too.) Otherwise 0.
+/// @param second(part, draw) returns the second differences for relative changes by `part`
 template <class Real, class Second>
 Real plateau_of_rounding(const Second& second) {
   Real part = Real(1) / Real(1 << 26);
-  Real smaller(0);  // under moves 16 times smaller, where it is rounding's
+  Real smaller(0);  // for changes 16 times smaller, if due to rounding
   for (int scale = 0; scale < 5; ++scale) {
     const auto first = second(part, 0);
     Real most = max_norm(first);
