@@ -53,7 +53,7 @@ class Corners(CommandCase):
 
     def test_methods_with_blanks_between(self):
         done = self.hamflow("compare", "kepler.toml", "--methods", "verlet", "stv4", status=2)
-        self.assertIn("found stv4 behind a blank; allowed one list with commas between", done.stderr)
+        self.assertIn("found stv4 after a blank; allowed one list separated by commas", done.stderr)
 
     def test_a_number_where_a_table_is_meant(self):
         done = self.hamflow("run", "kepler.toml", "--set", "run.dt.first=1", status=2)

@@ -268,7 +268,7 @@ record_every = true
         self.assertIn("did you mean halve?", told("method.on_divergence=half"))
 
     def test_what_no_thread_means_is_told(self):
-        self.assertRegex(self.hamflow("sweep", "--help").stdout, r"--threads N +how many, 0: all cores")
+        self.assertRegex(self.hamflow("sweep", "--help").stdout, r"--threads N +number of threads, 0: all cores")
 
     def test_unknown_names_are_answered_by_those_that_are_known(self):
         for words, allowed in ((["verify", "stv4", "--problem", "foo"], "allowed double-pendulum, duffing"),

@@ -259,7 +259,7 @@ initial = { q = [1, 0], p = [0, 1] }
 
     def test_a_reversal_draws_nothing_by_itself(self):
         self.write("gas.toml", GAS % "")
-        figures = "output.figures is not used: a reversal draws nothing; hamflow plot draws what --out DIR keeps"
+        figures = "output.figures is not used: a reversal draws no figures; use --out DIR and hamflow plot"
         self.assertIn(figures, self.hamflow("reverse", "gas.toml", "--set", "output.figures=['particles']").stderr)
         self.assertNotIn("not used", self.hamflow("reverse", "gas.toml").stderr)
 

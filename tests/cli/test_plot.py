@@ -217,14 +217,14 @@ steps = 2
             return done.stderr
 
         dt = ("--vary", "run.dt=0.1,0.2")
-        self.assertIn("there is no folder nodir", refused(3, *dt, "--figure", "nodir/s.svg"))
+        self.assertIn("the folder nodir does not exist", refused(3, *dt, "--figure", "nodir/s.svg"))
         self.assertIn("--colour: error: found final/t without --figure", refused(2, *dt, "--colour", "final/t"))
         refused(1, "--vary", "run.dt=1e300,1e301", "--figure", "s.svg")  # no member has an end to draw
         for arguments, key in ((("--methods", "stv5"), "--methods"), (("--methods", "stv4", "--dt", "x"), "--dt"),
                                (("--methods", "stv4", "--figure", "a.gif"), "--figure")):
             done = self.hamflow("compare", "kepler.toml", *arguments, status=2)
             self.assertTrue(done.stderr.startswith(f"{key}: error: found "), done.stderr)
-        self.assertIn("no folder nodir", self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--figure",
+        self.assertIn("the folder nodir does not exist", self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--figure",
                                                       "nodir/a.svg", status=3).stderr)
 
     def test_a_start_alone_has_no_exact_curve(self):

@@ -486,7 +486,7 @@ steps = 333
                      "--mean", "--colour", "varied/run.dt,energy/max_error")
         self.assertIn("over 4 members", (self.folder / "mean.svg").read_text())
         for options, words in ((("--figure", "mean.svg", "--mean"), "allowed two or more"),
-                               (("--mean",), "allowed beside --figure FILE"),
+                               (("--mean",), "allowed with --figure FILE"),
                                (("--figure", "mean.svg", "--mean", "--colour", "final/q1,max_error",
                                  "--vary", "problem.orbit.r_aph=2:3:5"), "did you mean energy/max_error?")):
             done = self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01:0.1:4", "--out", "none", *options,
