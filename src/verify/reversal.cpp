@@ -68,7 +68,7 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
     const bool arrived = go(first + steps, watching);
     simulation.look(progress.turn);
     progress.turn_hash = fnv1a(simulation.bits());
-    progress.energy_there = simulation.energy();
+    progress.forward_energy = simulation.energy();
     if (arrived) {
       simulation.negate_momenta();
       progress.turned = true;

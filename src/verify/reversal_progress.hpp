@@ -14,7 +14,7 @@ struct ReversalProgress {
   Frame start, turn;            // without effort and diagnostics once they were archived
   std::vector<std::byte> bits;  // of the start
   std::uint64_t start_hash = 0, turn_hash = 0;
-  Excursion energy_there;  // of the way there, as far as it has come; archived by those who want it
+  Excursion forward_energy;  // of the way there, as far as it has come; archived by those who want it
 
   template <class Archive>
   void archive(Archive& ar) {

@@ -33,7 +33,7 @@ class Certificate(CommandCase):
         self.assertEqual(back["bounces"], 0)
         self.assertIn("certificate", self.hamflow("run", "kepler.toml", "--out", "none").stdout)
         short = self.hamflow("run", "kepler.toml", "--set", "run.steps=20", "--out", "none").stdout
-        self.assertIn("20 steps (100 % of the run) there and back", short)
+        self.assertIn("reversal tested over 20 steps (100 % of the run)", short)
         self.hamflow("run", "kepler.toml", "--quiet")
         written = json.loads((self.folder / "kepler.run" / "summary.json").read_text())
         self.assertEqual(written["certificate"]["blocks"], 200)
@@ -517,7 +517,7 @@ steps = 7031
                 del s[key]
         self.assertEqual(whole, without)
         text = self.hamflow("run", "kepler.toml", *off, "--out", "r").stdout
-        self.assertRegex(text, r"certificate +not asked for\n")
+        self.assertRegex(text, r"certificate +not requested\n")
         more = self.hamflow("run", "kepler.toml", *off, "--out", "r", "--resume", "--set", "run.steps=500", "--json")
         self.assertIsNone(json.loads(more.stdout)["certificate"])
         self.assertIn("run.certificate", self.hamflow("run", "kepler.toml", "--out", "r", "--resume", "--set",
@@ -526,7 +526,7 @@ steps = 7031
                         ("compare", "kepler.toml", "--methods", "verlet"), ("reverse", "kepler.toml")):
             self.assertNotIn("certificate", self.hamflow(*command, *off).stderr)
         refused = self.hamflow("sweep", "kepler.toml", "--vary", "run.certificate=true,false", "--out", "none", status=2)
-        self.assertIn("on which no number of a sweep depends", refused.stderr)
+        self.assertIn("which does not change the results of a sweep", refused.stderr)
         self.assertIn("\n# certificate = false\n", self.hamflow("new", "harmonic").stdout)
 
 

@@ -151,7 +151,7 @@ steps = 40
         self.assertIn("method.name", self.hamflow("run", "rod.toml", "--out", "none", status=2).stderr)
         done = self.hamflow("compare", "rod.toml", "--methods", "rattle,rattle4", "--dt", "0.1,0.05", "--json")
         self.assertEqual([row["method"] for row in json.loads(done.stdout)["rows"]], 2 * ["rattle"] + 2 * ["rattle4"])
-        self.assertIn("note: the method of the file, which a comparison does not run, would be refused: method.name: ", done.stderr)
+        self.assertIn("note: the comparison does not run the method of the file, which would be refused: method.name: ", done.stderr)
         for methods, wrong in (("rattle,verlet", ["verlet"]), ("verlet,stv4", ["verlet", "stv4"])):
             lines = self.hamflow("compare", "rod.toml", "--methods", methods, status=2).stderr.splitlines()
             for line, name in zip(lines, wrong, strict=True):

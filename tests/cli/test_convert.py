@@ -115,7 +115,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
         done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.csv")
         self.assertIn("note: the columns step, angular_momentum, d of the run were left out", done.stderr)
         done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.h5")
-        self.assertIn("note: not in polar.h5: /events/user, /section, states of the run in cartesian coordinates", done.stderr)
+        self.assertIn("note: left out of polar.h5: /events/user, /section, which hold states in cartesian coordinates", done.stderr)
         self.hamflow("plot", "polar.h5", "-o", "polar.svg")
         # In the same coordinates all of it is meant as before.
         done = self.hamflow("convert", "named.toml", "--to", "cartesian")

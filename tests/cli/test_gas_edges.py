@@ -146,7 +146,7 @@ class Edges(CommandCase):
         """As in run, where the states are, not what they are."""
         text = (GAS % 'container = { kind = "none" }\ncutoff = 1.2\ndimension = 3').replace("side = 4", "side = 15")
         self.write("many.toml", text.replace("steps = 20", "steps = 1"))
-        for out, start, end, line in (([], None, None, "kept nowhere"), (["--out", "kept"], "/start", "/end", "/end of reverse.h5")):
+        for out, start, end, line in (([], None, None, "not saved"), (["--out", "kept"], "/start", "/end", "/end in reverse.h5")):
             s = json.loads(self.hamflow("reverse", "many.toml", "--json", *out).stdout)
             self.assertEqual((s["start"], s["returned"]), ({"dataset": start}, {"dataset": end}))
             self.assertRegex(self.hamflow("reverse", "many.toml", *out, *(["--force"] if out else [])).stdout, f"returned +{line}")
@@ -158,7 +158,7 @@ class Edges(CommandCase):
         self.write("gas.toml", GAS % "cutoff = 1.4")
         s = json.loads(self.hamflow("reverse", "gas.toml", "--json").stdout)
         self.assertIsNone(s["pair_evaluations"])
-        self.assertIn("with a cut-off only pairs within it are computed", s["pair_evaluations_note"])
+        self.assertIn("with a cut-off the number of pairs changes", s["pair_evaluations_note"])
         self.write("gas.toml", GAS % "")
         self.assertNotIn("pair_evaluations_note", json.loads(self.hamflow("reverse", "gas.toml", "--json").stdout))
 

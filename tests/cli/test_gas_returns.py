@@ -99,7 +99,7 @@ class GasReturns(GasCase):
             s = self.reverse("gas.toml", "--set", f"method={{name='{method}'}}")
             self.assertIsNone(s["pair_evaluations"], method)
             self.assertEqual(s["force_evaluations"], forces)
-            self.assertIn(method + " asks for more of the pairs than forces", s["pair_evaluations_note"])
+            self.assertIn(method + " evaluates more than forces", s["pair_evaluations_note"])
 
     def test_every_bit_comes_back(self):
         for keys in ("", 'container = { kind = "none" }', 'container = { kind = "box", size = [2.1, 2.1] }',

@@ -113,7 +113,7 @@ class Told(CommandCase):
                 # The file is back, with another start: that is told.
                 self.write("a/p.csv", start.replace("0.1", "0.2"))
                 refused = self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=400", "--set", "run.record_every=1", *part, status=2)
-                self.assertIn("a/f.toml:4:8: error: problem.file: contents: found those with the hash", refused.stderr)
+                self.assertIn("a/f.toml:4:8: error: problem.file: contents: found contents with hash", refused.stderr)
         # A run that does not go on needs its file, and so does one that keeps its start in fewer digits than it had.
         (self.folder / "a/p.csv").unlink()
         self.assertIn("found no file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "new.run", status=2).stderr)
@@ -165,7 +165,7 @@ class Told(CommandCase):
     def test_particles_that_may_pass_in_a_sweep_and_a_comparison(self):
         """As `run` says it, once: not for each member."""
         self.write("two.toml", TWO)
-        passing = "a particle moves 1.2 in a step, more than a quarter of 1, within which two repel each other: they may pass"
+        passing = "a particle moves 1.2 in a step, more than a quarter of the repulsion distance 1, so two particles may"
         self.assertIn(passing, self.told("two.toml", "run.dt=0.12", status=0))
         of_sweep = ["sweep", "two.toml", "--out", "none", "--vary"]
         told = self.hamflow(*of_sweep, "run.dt=0.001,0.12,0.13").stderr
@@ -255,7 +255,7 @@ initial = { q = [1, 0], p = [0, 1] }
         for arithmetic in ("lattice", "double"):
             s = json.loads(self.hamflow(*back, "--set", f"run.arithmetic={arithmetic}", status=1).stdout)
             self.assertEqual(s["status"], "failed")
-            self.assertEqual(s["note"], "the reversal has not come to its end: nothing is said of what it returns")
+            self.assertEqual(s["note"], "the reversal did not finish, so there is no result")
 
     def test_a_reversal_draws_nothing_by_itself(self):
         self.write("gas.toml", GAS % "")

@@ -52,10 +52,10 @@ class Nonsense(CommandCase):
 
     def test_keys_on_which_no_number_of_a_sweep_depends(self):
         for vary in ("output.folder=a,b", "run.record_every=1,2", "run.checkpoint_every=1,2"):
-            self.assertIn("on which no number of a sweep depends",
+            self.assertIn("which does not change the results of a sweep",
                           self.refused("sweep", "kepler.toml", "--out", "none", "--vary", vary))
 
-        self.assertIn("which all members of a sweep have in common; allowed --set output.observables",
+        self.assertIn("which must be the same for all members; allowed --set output.observables",
                       self.refused("sweep", "kepler.toml", "--out", "none", "--vary", "output.observables=1,2"))
 
     def test_an_unknown_method_is_not_answered_by_a_wall(self):

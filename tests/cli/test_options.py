@@ -87,7 +87,7 @@ class Options(CommandCase):
             self.assertEqual({key: here[key] for key in ("t", "q", "p")}, final)
             self.assertIn("tol: found '2'; allowed a number between 0 and 1", self.shell(f"method {method}\ntol 2\n", status=2))
         text = self.shell("method stv4\ntol 1e-3\n", status=2)
-        self.assertIn("stv4, which has no tolerance; allowed with avf, cg, discrete-gradient, dop853, eg, gauss, implicit-midpoint, itoh-abe, "
+        self.assertIn("stv4 has no tolerance; allowed with avf, cg, discrete-gradient, dop853, eg, gauss, implicit-midpoint, itoh-abe, "
                       "lobatto-3a-3b, rattle, taylor\n", text)
 
     def test_saved_sessions_can_be_read(self):

@@ -75,7 +75,7 @@ class Problems(CommandCase):
         self.assertIn("apsidal angle 0.304377, falls into the centre", text)
 
     def test_what_keeps_a_fall_out_of_the_centre(self):
-        for momentum, words in ((0, "some angular momentum"), (0.5, "so much more angular momentum")):
+        for momentum, words in ((0, "some angular momentum"), (0.5, "enough angular momentum to miss the centre")):
             s = self.field('potential="power"\na=-1\nn=-4', [0.5, 0], [0, momentum], "--set", "method={name='verlet'}",
                            steps=150)
             (message,) = [w["message"] for w in s["warnings"] if w["kind"] == "falls_into_centre"]

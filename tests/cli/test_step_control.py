@@ -203,7 +203,7 @@ class StepControl(CommandCase):
         error = json.loads(self.hamflow("run", "kepler.toml", *eccentric, status=1).stdout)["error"]
         self.assertIn("density of steps", error["message"])
         self.assertEqual(error["hint"].split(";")[0],
-                         'where the density of steps is at fault, try a smaller dt or method.monitor = "distance"')
+                         'if the density of steps failed, try a smaller dt or method.monitor = "distance"')
         self.hamflow("run", "kepler.toml", *eccentric, "--set", "method.monitor=distance")
 
 

@@ -252,7 +252,7 @@ class Studies(CommandCase):
                      "run.section.value=0,0.1", "run.section.coordinate=q1,q2", "run.section.direction=1,-1"):
             path = vary.split("=")[0]
             text = self.refused(*(section if "section" in path else ()), "--vary", vary)
-            self.assertIn(f"--vary: error: found {path}, which all members of a sweep have in common", text)
+            self.assertIn(f"--vary: error: found {path}, which must be the same for all members", text)
 
     def test_lists_in_step(self):
         found = self.sweep("--zip", "--vary", "run.dt=0.1,0.05,0.025", "--vary", "run.steps=10,20,40", "--vary",

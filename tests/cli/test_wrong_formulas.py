@@ -125,8 +125,8 @@ steps = 10
 
     def test_what_is_no_number_is_not_kept(self):
         done = self.hamflow("run", "f.toml", "--set", 'problem.invariants={ bad = "sqrt(p_x - 9)", good = "k" }', "--out", "none")
-        self.assertRegex(done.stdout, "bad +not finite -> not finite, how far off is not known")
-        self.assertRegex(done.stdout, "good +1 -> 1, at most 0 off")
+        self.assertRegex(done.stdout, "bad +not finite -> not finite, error unknown")
+        self.assertRegex(done.stdout, "good +1 -> 1, largest error 0")
         self.assertIn("warning: no_number: bad was not finite", done.stderr)
         summary = self.summary("f.toml", "--set", 'problem.invariants={ bad = "sqrt(p_x - 9)" }')
         self.assertIsNone(summary["invariants"]["bad"]["max_error"])
