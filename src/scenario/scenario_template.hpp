@@ -1,13 +1,13 @@
-// A complete scenario for a problem, with every key that it may have explained beside it.
+// A complete scenario for a problem, with an explanation of every key that it may have.
 #pragma once
 
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
-/// TOML that can be read and run as it is. Of several starts the one that the example names is active, the others stand
-/// as comments.
-/// @param example complete: with the values of the region where the problem declares none of its own
+/// TOML that can be run without changes. If there are several starts, the one that the example names is active and the
+/// others are comments.
+/// @param example complete; values that the problem does not declare are those of its region
 std::string scenario_template(const ProblemEntry& problem, const ExampleInfo& example);
 
 }  // namespace hamflow

@@ -439,9 +439,9 @@ steps = 40
                                           "--json").stdout)
             self.assertEqual({key: own["evaluations"][key] for key in row["evaluations"]}, row["evaluations"], row["method"])
         for words in ("method.max_iterations, method.on_divergence are not used by stv4: no such option",
-                      "method.stages is not used by gauss(2): its name says it",
+                      "method.stages is not used by gauss(2): its name contains it",
                       "method.stages is not used by cg(1,6), stv4: no such option",
-                      "method.stages is not used by lobatto-3a-3b: it means something else there"):
+                      "method.stages is not used by lobatto-3a-3b: it has another meaning there"):
             self.assertIn("note: " + words, done.stderr)
         self.assertEqual(self.hamflow("compare", "halve.toml", "--methods", "gauss(2),stv4", "--quiet").stderr, "")
         # What the file says tells methods apart where it has to, and what is set goes to those that have it.

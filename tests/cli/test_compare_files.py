@@ -52,12 +52,12 @@ class CompareFiles(CompareCase):
     def test_notes_of_several_methods(self):
         done = self.hamflow("compare", "kepler.toml", "--methods", "cg(2,6),cg(2,6,tolerance=1e-3),cg(2,7,tolerance=1e-3)",
                             "--dt", "0.2")
-        self.assertRegex(done.stderr, r"method.quadrature is not used by .*: their names say it\n")
+        self.assertRegex(done.stderr, r"method.quadrature is not used by .*: their names contain it\n")
         sets = ("--set", "method.tolerance=1e-5", "--set", "run.steps=4")
         done = self.hamflow("compare", "kepler.toml", "--methods", "dop853,taylor", "--dt", "0.1", *sets)
-        self.assertIn("not used by dop853, taylor: their rows have the default, unless their names say one", done.stderr)
+        self.assertIn("not used by dop853, taylor: their rows have the default, unless their names contain it", done.stderr)
         done = self.hamflow("compare", "kepler.toml", "--methods", "dop853", "--dt", "0.1,0.2", *sets)
-        self.assertIn("not used by dop853: its rows differ in it, unless its name says one", done.stderr)
+        self.assertIn("not used by dop853: it differs between its rows, unless its name contains it", done.stderr)
 
     def test_a_run_of_no_time_is_told_where_it_stands(self):
         self.write("still.toml", (self.folder / "henon.toml").read_text().replace("steps=100", "steps=0"))

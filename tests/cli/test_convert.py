@@ -254,7 +254,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
         self.write("d.toml", "[problem]\nname='double-pendulum'\ninitial={q=[0.3,0.1],p=[0,0]}\n[method]\nname='cg'\n"
                    "[run]\ndt=0.01\nsteps=10\n")
         said = self.hamflow("convert", "d.toml", "--to", "generalised", status=2).stderr
-        self.assertIn("found generalised coordinates of double-pendulum, of which there are several; allowed absolute, relative", said)
+        self.assertIn("found generalised coordinates, of which double-pendulum has several; allowed absolute, relative", said)
 
     def test_wrong_requests(self):
         self.write("pendulum.toml", '[problem]\nname="pendulum"\ninitial={q=[1],p=[0]}\n[method]\nname="verlet"\n'
@@ -266,12 +266,12 @@ observables = { d = "sqrt(x^2 + y^2)" }
             (["kepler.toml", "--to", "polr"], "did you mean polar?"),
             (["kepler.toml"], "--to"),
             (["--to", "polar"], "INPUT"),
-            (["--from", "polar", "--to", "relative", "--q", "1,0", "--p", "0,1"], "no way from"),
+            (["--from", "polar", "--to", "relative", "--q", "1,0", "--p", "0,1"], "cannot convert from"),
             (["--from", "cartesian", "--to", "polar", "--q", "0,0", "--p", "0,1"], "r = 0"),
             (["--from", "polar", "--to", "cartesian", "--q", "0,1", "--p", "0,1"], "r = 0"),
             (["--from", "cartesian", "--to", "polar", "--q", "1", "--p", "0,1"], "1 coordinates and 2 momenta"),
             (["--from", "cartesian", "--to", "polar", "--q", "1,x", "--p", "0,1"], "--q: error: found '1,x'"),
-            (["--from", "cartesian", "--to", "generalised", "--q", "0,-2", "--p", "1,0"], "off the constraints, |g(q)| = 3"),
+            (["--from", "cartesian", "--to", "generalised", "--q", "0,-2", "--p", "1,0"], "violates the constraints, |g(q)| = 3"),
             (["--from", "cartesian", "--to", "generalised", "--q", "0,-1", "--p", "1,5"], "leaves the constraints"),
             (["--from", "cartesian", "--to", "absolute", "--q", "0,-1,0,-7", "--p", "1,0,0,3"], "off the constraints"),
             (["kepler.toml", "--from", "cartesian", "--to", "polar"], "allowed one of them"),

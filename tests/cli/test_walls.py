@@ -422,7 +422,7 @@ arithmetic = "lattice"
         self.assertTrue(found["bit_exact"])
         given = "run.lattice={{position='2^{}'}}"
         text = self.refused("bodies.toml", "--set", given.format(-52))
-        self.assertIn('with run.lattice = { position = "2^-50" }', text)
+        self.assertIn('e.g. run.lattice = { position = "2^-50" }', text)
         self.refused("bodies.toml", "--set", given.format(-51))
         self.assertEqual(self.summary("bodies.toml", "--set", given.format(-50))["status"], "done")
 
