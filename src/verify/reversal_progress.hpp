@@ -1,5 +1,5 @@
-// How far a reversal has come: what has to be known beside the simulation, so that one that was stopped goes on with
-// the same bits and finds the same distance.
+// The progress of a reversal: the data that, with the simulation, let a stopped reversal continue with the same bits
+// and find the same distance.
 #pragma once
 
 #include "hamflow/verify/certificate.hpp"

@@ -156,7 +156,7 @@ class CompareFiles(CompareCase):
         before = self.compare("fall.toml", "--methods", "stv4", "--dt", "0.01")  # the fall takes pi/sqrt(8)
         self.assertLess(before["rows"][0]["error"], 1e-4)
         done = self.hamflow("compare", "fall.toml", "--methods", "stv4", "--set", "run.steps=300", status=1)
-        self.assertRegex(done.stderr, r"no reference: the motion cannot be followed beyond t = (0\.9|1)")
+        self.assertRegex(done.stderr, r"no reference solution: the motion cannot be integrated beyond t = (0\.9|1)")
 
     def test_what_walls_refuse_in_a_run_they_refuse_here(self):
         self.write("wall.toml", "[problem]\nname = 'harmonic'\ninitial = { q = [0], p = [1] }\n"

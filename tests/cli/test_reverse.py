@@ -44,8 +44,8 @@ class Reverse(CommandCase):
         near = self.reverse("pendulum.toml")
         self.assertLess(near["digits_lost"], 1)
         if not near["bit_exact"]:
-            self.assertRegex(near["note"], "^itoh-abe is not reversible, but this reversal does not show it: .* off, of which "
-                             "rounding explains .*its defect is below that")
+            self.assertRegex(near["note"], "^itoh-abe is not reversible, but this reversal does not show it: distance .*, "
+                             "rounding explains up to .*its defect is below this bound")
         far = self.reverse("pendulum.toml", "--set", "method.name=rk4")
         self.assertEqual(far["note"], "rk4 is not reversible: rounding alone does not explain the distance")
 

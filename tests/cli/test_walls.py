@@ -399,7 +399,7 @@ steps = 10
         found = json.loads(self.hamflow("reverse", self.tube("stv4", 'wall_rule = "reject"'), "--set",
                                         "run.arithmetic=lattice", "--json").stdout)
         self.assertFalse(found["expected_bit_exact"])
-        self.assertIn("one-to-one", found["note"])
+        self.assertIn("cannot be undone", found["note"])
 
     def test_mirrors_of_bodies_on_the_lattice(self):
         """The unit by default is coarse enough for walls further out than any body starts."""

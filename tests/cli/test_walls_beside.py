@@ -68,7 +68,7 @@ observables = { a = "x1*p_y2 + q1*p4" }
             told = self.summary(self.free("verlet", f'wall_rule = "{rule}"'), "--set", "problem.initial={q=[1],p=[1]}",
                                 "--set", "run.dt=0.3", "--set", "run.steps=1")["certificate"]["reversal_distance"]
             self.assertEqual(told["proves"], "nothing", told)
-            self.assertIn("begins on a wall", told["reason"])
+            self.assertIn("starts on a wall", told["reason"])
 
     def test_what_a_note_of_a_reversal_proposes_is_possible(self):
         def note(*arguments):
