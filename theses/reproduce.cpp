@@ -33,7 +33,7 @@ bool is_there(const fs::path& file) {
 /// Each experiment has a folder of its own, which is replaced when it is carried out again.
 const FolderKind& reproduction_folder() {
   static const FolderKind kind{
-      .name = "reproduction", .signs = {"reproduction"}, .files = {}, .goes_on_from = "reproduction"};
+      .name = "reproduction", .signs = {"reproduction"}, .files = {}, .resumes_from = "reproduction"};
   return kind;
 }
 

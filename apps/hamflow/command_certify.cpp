@@ -1,4 +1,4 @@
-// hamflow certify: the drift class of the energies that any program has written.
+// hamflow certify: finds the drift class of energies in the log of any program.
 #include <iostream>
 #include <optional>
 

@@ -1,4 +1,4 @@
-// hamflow compare: several methods, several steps, one run: what accuracy costs.
+// hamflow compare: measures error and cost of several methods with several step sizes on one scenario.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -51,7 +51,7 @@ int compare(const CompareOptions& options) {
   std::cout << (options.json ? report.json : report.text);
   print_warnings(report.warnings);
   if (report.status == "failed") print_error(report.message, report.hint);
-  const int written = written_behind_report([&] {
+  const int written = write_after_report([&] {
     if (!options.csv.empty()) write_file(options.csv, report.csv);
     if (folder) write_comparison(report, *folder);
     if (report.status == "done" && !options.figure.empty()) draw_comparison(report.comparison, options.figure);

@@ -1,4 +1,4 @@
-// hamflow convert: states, scenarios and runs in the other coordinates of their problem.
+// hamflow convert: converts states, scenarios and runs to other coordinates of their problem.
 #include <filesystem>
 #include <iostream>
 
@@ -28,7 +28,7 @@ std::vector<double> numbers_of(const std::string& option, const std::string& tex
     for (const std::string& part : list_parts("[" + text + "]")) numbers.push_back(evaluate_number<double>(part));
   } catch (const Error& error) {
     throw Rejection(option,
-                    "found '" + text + "'; allowed numbers with commas between, e.g. 1,0 (" + error.what() + ")");
+                    "found '" + text + "'; allowed numbers separated by commas, e.g. 1,0 (" + error.what() + ")");
   }
   return numbers;
 }
@@ -37,9 +37,9 @@ void convert_given_state(const ConvertOptions& options) {
   if (!options.input.empty()) throw Error("found both INPUT and --from; allowed one of them");
   if (options.from.empty() || options.q.empty() || options.p.empty()) {
     throw Error(
-        "found neither INPUT nor a whole state; allowed INPUT --to ..., or --from ... --to ... --q ... --p ...");
+        "found neither INPUT nor a complete state; allowed INPUT --to ..., or --from ... --to ... --q ... --p ...");
   }
-  if (!options.sets.empty()) throw Rejection("--set", "found --set beside a state; allowed with a scenario");
+  if (!options.sets.empty()) throw Rejection("--set", "found --set with a state; allowed with a scenario");
   const CanonicalState given{numbers_of("--q", options.q), numbers_of("--p", options.p)};
   StateConverter convert(options.from, options.to, given.q.size());
   const CanonicalState state = convert(given);
@@ -47,8 +47,8 @@ void convert_given_state(const ConvertOptions& options) {
   print(options.json ? state_json(options.to, state) : state_text(state), options.output);
 }
 
-void note_left_out(const std::string& keys, const std::string& of_what) {
-  if (!keys.empty()) print_notes({keys + " of the other coordinates: not in " + of_what}, false);
+void note_left_out(const std::string& keys, const std::string& where) {
+  if (!keys.empty()) print_notes({"left out of " + where + ": " + keys + " (written in the old coordinates)"}, false);
 }
 
 void convert_scenario(const ConvertOptions& options) {
@@ -57,7 +57,8 @@ void convert_scenario(const ConvertOptions& options) {
     throw Rejection("-o", "found '" + options.output +
                               "'; allowed a file .toml, or .json with --json: " + options.input + " is a scenario");
   }
-  // The method set is that of the converted scenario: with constraints none is allowed in both coordinates.
+  // method.* is set in the converted scenario. For problems with constraints no method is allowed in both coordinates,
+  // so it must not be set in the original one.
   std::vector<std::string> of_problem = options.sets;
   std::vector<std::string> of_method;
   std::erase_if(of_problem, [&](const std::string& set) {
@@ -67,7 +68,8 @@ void convert_scenario(const ConvertOptions& options) {
   });
   const Scenario scenario = accepted(read_scenario(options.input, of_problem));
   if (options.json) {
-    if (!of_method.empty()) (void)converted_scenario(scenario, options.to, of_method);  // no method is in a state
+    // The state that is printed has no method, but a wrong method.* has to be refused.
+    if (!of_method.empty()) (void)converted_scenario(scenario, options.to, of_method);
     print(converted_start_json(scenario, options.to), options.output);
     return;
   }
@@ -75,13 +77,13 @@ void convert_scenario(const ConvertOptions& options) {
   print(converted.text, options.output);
   print_notes(converted.notes, false);
   if (scenario.text.find('#') != std::string::npos) {
-    print_notes({"comments of " + options.input + " are not in the converted text"}, false);
+    print_notes({"the comments of " + options.input + " were not copied"}, false);
   }
-  note_left_out(left_out_of_converted(scenario, options.to), "what was converted");
+  note_left_out(left_out_of_converted(scenario, options.to), "the converted scenario");
 }
 
 void convert_run(const ConvertOptions& options) {
-  if (!options.sets.empty()) throw Rejection("--set", "found --set beside a run; allowed with a scenario");
+  if (!options.sets.empty()) throw Rejection("--set", "found --set with a run; allowed with a scenario");
   const std::string extension = fs::path(options.output).extension().string();
   const bool known = options.json ? extension == ".json" : extension == ".h5" || extension == ".csv";
   if (!options.output.empty() && !known) {
@@ -94,11 +96,11 @@ void convert_run(const ConvertOptions& options) {
   if (extension == ".h5") {
     const std::string note = run.write_h5(options.output);
     if (!note.empty()) print_notes({note}, false);
-    note_left_out(run.left_out(), "the scenario that " + options.output + " holds");
+    note_left_out(run.left_out(), "the scenario in " + options.output);
   } else {
     print(options.json ? run.json() : run.csv(), options.output);
     print_notes(
-        {"the converted states stand without " + joined(run.columns_left_out()) + " of the run; a file .h5 has them"},
+        {"the columns " + joined(run.columns_left_out()) + " of the run were left out; with -o FILE.h5 they are kept"},
         false);
   }
 }
@@ -113,11 +115,11 @@ int convert_command(const ConvertOptions& options) {
       return exit_done;
     }
     if (!options.q.empty() || !options.p.empty())
-      throw Rejection("--q", "found --q or --p beside INPUT; allowed with --from");
+      throw Rejection("--q", "found --q or --p together with INPUT; allowed with --from");
     require_folder_of(options.output);
     std::error_code none;
     if (!options.output.empty() && fs::equivalent(options.input, options.output, none)) {
-      throw Rejection("-o", "found the input itself; allowed another file");
+      throw Rejection("-o", "found the input file itself; allowed another file");
     }
     if (is_run(options.input)) {
       convert_run(options);

@@ -56,17 +56,17 @@ void reject_missing_value(const CLI::App& app, int argc, char** argv) {
     if (option == nullptr || !word.starts_with("-") || option->get_items_expected_max() == 0) continue;
     const bool behind_equals = name.size() < word.size();
     const bool empty = behind_equals ? name.size() + 1 == word.size() : i + 1 < argc && argv[i + 1][0] == '\0';
-    const bool swallows = !behind_equals && i + 1 < argc && sub->get_option_no_throw(argv[i + 1]) != nullptr &&
-                          std::string(argv[i + 1]).starts_with("-");
-    if (!empty && !swallows) continue;
-    throw CLI::ValidationError(name + ": found " + (empty ? "nothing" : "the option " + std::string(argv[i + 1])) +
+    const bool option_follows = !behind_equals && i + 1 < argc && sub->get_option_no_throw(argv[i + 1]) != nullptr &&
+                                std::string(argv[i + 1]).starts_with("-");
+    if (!empty && !option_follows) continue;
+    throw CLI::ValidationError(name + ": found " + (empty ? "no value" : "the option " + std::string(argv[i + 1])) +
                                    "; allowed " + name + " " + option->get_type_name(),
                                CLI::ExitCodes::InvalidError);
   }
 }
 
 namespace {
-/// Of --steps, run.steps: a key that was taken for an option. Empty where there is none of that name.
+/// The scenario key whose name was typed as an option: run.steps for --steps. Empty if no key has this name.
 std::string key_for_option(const std::string& option) {
   std::string name = option.substr(std::min(option.find_first_not_of('-'), option.size()));
   std::replace(name.begin(), name.end(), '-', '_');
@@ -94,7 +94,7 @@ std::vector<Complaint> complaints_of(const CLI::App& app, const CLI::ParseError&
       for (const std::string& word : sub->remaining()) {
         if (!word.starts_with("-") && sub->get_name() == "compare") {
           complain("--methods", "found " + word +
-                                    " behind a blank; allowed one list with commas between, e.g. --methods 'verlet," +
+                                    " after a blank; allowed one list separated by commas, e.g. --methods 'verlet," +
                                     word + "'");
         }
         if (!word.starts_with("-")) continue;
@@ -107,7 +107,7 @@ std::vector<Complaint> complaints_of(const CLI::App& app, const CLI::ParseError&
     }
     if (!all.empty()) return all;
   }
-  // CLI11 puts the name of the option before what its validator says.
+  // CLI11 puts the name of the option before the message of the validator.
   const std::string text = error.what();
   const std::size_t colon = text.find(": ");
   const bool has_name = colon != std::string::npos && text.find_first_of(" '\"") > colon;

@@ -1,4 +1,4 @@
-// hamflow list, hamflow show: the catalogue as it is declared.
+// hamflow list, hamflow show: print the declarations of the catalogue.
 #include <algorithm>
 #include <iostream>
 
@@ -40,7 +40,7 @@ int show_command(const std::string& name, const std::string& folder) {
       const std::vector<std::string> ids = experiment_ids();
       if (std::find(ids.begin(), ids.end(), name) != ids.end()) become_reproduce({"--show", name});
       throw Error(not_in_catalogue(name, &ids) +
-                  (ids.empty() ? "; experiments are known once ./dev theses has built hamflow-reproduce" : ""));
+                  (ids.empty() ? "; experiments are listed only after ./dev theses has built hamflow-reproduce" : ""));
     }
     std::cout << found->text;
     return exit_done;

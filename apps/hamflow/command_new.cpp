@@ -1,4 +1,4 @@
-// hamflow new: a scenario to begin with, written from what the catalogue says of the problem.
+// hamflow new: prints a scenario to start from, written from the declarations of the catalogue.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ void add_once(std::vector<std::string>& list, const std::string& word) {
   if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
 }
 
-/// The entry of a problem with the choices given, the usual ones for those not given. @throws Error
+/// The catalogue entry of a problem for the given choices; choices not given have their default. @throws Error
 std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
   std::vector<std::string> names;
   std::map<std::string, std::vector<std::string>> choices;
@@ -45,7 +45,7 @@ std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
       std::string allowed;
       for (const auto& choice : choices) allowed += (allowed.empty() ? "--" : ", --") + choice.first;
       throw Rejection("--" + key, fmt::format("{} has no choice of {}; allowed {}", options.problem, key,
-                                              allowed.empty() ? "no choice here" : allowed));
+                                              allowed.empty() ? "no such option" : allowed));
     }
     const std::vector<std::string>& all = choices[key];
     if (std::find(all.begin(), all.end(), value) == all.end()) {
@@ -64,7 +64,7 @@ std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
     if (entry.info.name != options.problem || typed == variant.end()) continue;
     if (lacking(entry) == variant.end()) return std::make_shared<const ProblemEntry>(entry);
   }
-  // A choice may be one of other choices alone: the dimension of a pendulum is one in Cartesian coordinates.
+  // A choice may exist only together with another: a pendulum has a dimension only in Cartesian coordinates.
   const std::shared_ptr<const ProblemEntry> usual = usual_problem(options.problem, variant);
   const auto lacks = lacking(*usual);
   if (lacks == variant.end()) return usual;
@@ -74,10 +74,11 @@ std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
   }
   throw Rejection(
       "--" + lacks->first,
-      fmt::format("found {}, of which there is no choice beside the others; allowed without it", lacks->second));
+      fmt::format("found {}, which does not exist together with the other choices; allowed without it", lacks->second));
 }
 
-/// What the problem declares; else where `hamflow verify` measures, since a run is bounded and regular there.
+/// The example that the problem declares; else a start in the region where `hamflow verify` measures, since runs are
+/// bounded and regular there.
 ExampleInfo example_for(const ProblemEntry& problem) {
   ExampleInfo example = problem.info.example;
   const Region region = region_of(problem.info.name, {problem.info.variant.begin(), problem.info.variant.end()});

@@ -1,4 +1,4 @@
-// hamflow plot: a figure of runs, finished, running or cut short.
+// hamflow plot: draws a figure of finished, running or interrupted runs.
 #include "commands.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"

@@ -1,4 +1,4 @@
-// hamflow reproduce: starts hamflow-reproduce, as git starts git-foo.
+// hamflow reproduce: starts the program hamflow-reproduce, as `git foo` starts git-foo.
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* program = "hamflow-reproduce";
 
-/// Empty where there is none.
+/// The path of hamflow-reproduce; empty if it is not found.
 fs::path found_program() {
   std::error_code none;
   std::vector<fs::path> folders{fs::read_symlink("/proc/self/exe", none).parent_path()};
@@ -41,9 +41,9 @@ fs::path found_program() {
 void become_reproduce(const std::vector<std::string>& arguments) {
   const fs::path file = found_program();
   if (file.empty()) {
-    throw FileError(std::string("found no ") + program +
-                    " beside hamflow or in PATH; the experiments of the theses are a program of their own, which "
-                    "./dev theses builds in the sources of hamflow");
+    throw FileError(std::string("the program ") + program +
+                    ", which carries out the experiments, is neither in the folder of hamflow nor in PATH; to build "
+                    "it, run ./dev theses in the sources of hamflow");
   }
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -1,4 +1,4 @@
-// hamflow reverse: forward, negate the momenta, forward again, negate: what came back.
+// hamflow reverse: tests time reversibility. It integrates forward and back, and compares the end with the start.
 #include <iostream>
 #include <optional>
 
@@ -16,12 +16,12 @@ int reverse_command(const ReverseOptions& options) {
   const auto reverse = [&] {
     const bool writes = !options.out.empty() && options.out != "none";
     if (options.resume && !writes)
-      throw Rejection("--resume", "found --resume without a folder; allowed with --out DIR, where the reversal is");
+      throw Rejection("--resume",
+                      "found --resume without a folder; allowed with --out DIR, the folder of the reversal");
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
-    print_notes(unused_measures(scenario, "a reversal takes every step and asks what came back"), options.quiet);
-    print_notes(unused_figures(scenario, "a reversal draws nothing; hamflow plot draws what --out DIR keeps"),
-                options.quiet);
+    print_notes(unused_measures(scenario, "a reversal only compares the end with the start"), options.quiet);
+    print_notes(unused_figures(scenario, "a reversal draws no figures; use --out DIR and hamflow plot"), options.quiet);
     ReversalSettings settings;
     if (writes) settings.folder = options.out;
     settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;

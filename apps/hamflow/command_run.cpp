@@ -1,4 +1,4 @@
-// hamflow run: a scenario becomes a folder and a summary.
+// hamflow run: runs a scenario, writes its folder and prints the summary.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -13,7 +13,7 @@ namespace hamflow::app {
 
 namespace {
 
-/// What is wrong with the options together.
+/// Refuses options that exclude each other.
 void check_together(const RunOptions& options) {
   if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
   if (options.resume && options.out == "none")
@@ -23,10 +23,10 @@ void check_together(const RunOptions& options) {
 RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWork& kept) {
   RunSettings settings;
   if (options.out != "none") settings.folder = folder_of(scenario, options.out);
-  settings.samples = false;  // they go to the folder
+  settings.samples = false;  // they are written to the folder and not kept in memory
   settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
   settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
-  std::optional<Progress> progress;  // its first step is where the run goes on
+  std::optional<Progress> progress;  // made at the first pulse: a resumed run starts at a later step
   std::optional<Preparation> preparation;
   settings.pulse = [&](std::int64_t step) {
     if (step > 0) preparation.reset();
@@ -46,13 +46,15 @@ int print(const RunReport& report, const std::string& folder, const RunOptions& 
   if (report.was_complete && report.file_trouble.empty()) return exit_done;
   if (!folder.empty() && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder);
-    if (report.status == "interrupted") std::cout << fmt::format("{:<20}the same command with --resume\n", "to go on");
+    if (report.status == "interrupted")
+      std::cout << fmt::format("{:<20}the same command with --resume\n", "to continue");
   }
   const bool failed = report.status == "failed";
   if (failed) {
     print_error(report.message, report.hint, report.details);
-    if (!folder.empty()) std::cerr << "what was computed is in " << folder << '\n';
-    if (!report.file_trouble.empty()) std::cerr << "the same command with --resume goes on from the last checkpoint\n";
+    if (!folder.empty()) std::cerr << "the results up to the failure are in " << folder << '\n';
+    if (!report.file_trouble.empty())
+      std::cerr << "to continue from the last checkpoint, give the same command with --resume\n";
   } else if (!report.file_trouble.empty()) {
     print_error(report.file_trouble);
   }

@@ -1,4 +1,4 @@
-// hamflow shell: a run steered line by line.   [Gross1999, appendix: step, dt, tol, quit]
+// hamflow shell: controls a run by commands read line by line.   [Gross1999, appendix: step, dt, tol, quit]
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -29,17 +29,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* help_text =
-    "step [n]        takes n steps, 1 without n\n"
-    "dt x            another step length; state and time go on\n"
-    "tol x, tol off  the tolerance of a method that has one, or the one that it has by itself\n"
-    "method m        another method, e.g. method cg(1,5); state and time go on\n"
-    "show [what]     nothing, or one of: step, t, q, p, energy, error (of the energy, since the start), invariants,\n"
-    "                solver, settings, changes, all\n"
-    "save FOLDER     what was sampled so far, as a run leaves it; save! replaces the run in an existing folder\n"
-    "reset           back to the start, with the present settings\n"
-    "reverse         negates the momenta\n"
-    "help            this list\n"
-    "quit            ends; so does the end of the input\n";
+    "step [n]        take n steps [1]\n"
+    "dt x            change the step size; state and time are kept\n"
+    "tol x, tol off  set the tolerance of the method; off: its default\n"
+    "method m        change the method, e.g. method cg(1,5); state and time are kept\n"
+    "show [what]     print the state, or one of: step, t, q, p, energy, error (energy error since the start),\n"
+    "                invariants, solver, settings, changes, all\n"
+    "save FOLDER     write the samples so far to a folder, as hamflow run does; save! replaces an existing run\n"
+    "reset           return to the start; the settings are kept\n"
+    "reverse         negate the momenta\n"
+    "help            print this list\n"
+    "quit            end the session; the end of the input does the same\n";
 const std::vector<std::string> words{"step",  "dt",      "tol",   "method", "show", "save",
                                      "save!", "reverse", "reset", "help",   "quit"};
 const std::vector<std::string> topics{"step",       "t",      "q",        "p",       "energy", "error",
@@ -78,7 +78,7 @@ class Shell {
                        session_.request().dt);
   }
 
-  /// False at the end of the input. Ctrl-C at the prompt drops the line.
+  /// Reads a line; returns false at the end of the input. Ctrl-C at the prompt discards the line.
   bool next_line(std::string& line) {
     for (;;) {
       if (prompts_) {
@@ -101,9 +101,9 @@ class Shell {
     }
   }
 
-  /// The exit status that a line would have as a command.
+  /// Executes a line and returns its exit status.
   int obey(const std::string& line) {
-    // The commands of the thesis are written step,,10.
+    // The thesis writes commands as step,,10.
     std::string text = line;
     for (auto at = text.find(",,"); at != std::string::npos; at = text.find(",,")) text.replace(at, 2, " ");
     const auto begin = text.find_first_not_of(" \t");
@@ -118,10 +118,10 @@ class Shell {
 
   int carry_out(const std::string& word, const std::string& rest) {
     const auto alone = [&] {
-      if (!rest.empty()) throw Error(word + ": found '" + rest + "' behind it; allowed nothing");
+      if (!rest.empty()) throw Error(word + ": found '" + rest + "'; allowed no argument");
     };
     const auto with = [&](const char* what) {
-      if (rest.empty()) throw Error(word + ": missing; allowed " + what);
+      if (rest.empty()) throw Error(word + ": found no argument; allowed " + what);
     };
     if (word == "step") return step(rest);
     if (word == "dt") {
@@ -191,7 +191,8 @@ class Shell {
     }
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (samples_.every() != spacing && !options_.quiet) {
-      std::cerr << "note: so many samples do not fit; from now on every " << samples_.every() << "th step is kept\n";
+      std::cerr << "note: the samples exceed the limit; from now on only every " << samples_.every()
+                << "th step is kept\n";
     }
     outcome_ = Outcome::done;
     warn();
@@ -206,7 +207,7 @@ class Shell {
     return exit_failed;
   }
 
-  /// Of each kind once, until the session starts anew.
+  /// Prints new warnings. A warning of one kind is printed once until reset.
   void warn() {
     std::vector<Warning> fresh;
     const Summary summary = session_summary(session_, last());
@@ -224,7 +225,7 @@ class Shell {
     Frame now;
     session_.look(now);
     const Excursion energy = session_.energy();
-    // Beyond double the doubles would show a difference of 0 and a state that nobody can go on from.
+    // With more digits than double, doubles would show a difference of 0 and an inexact state. So the texts are used.
     const bool in_digits = !now.digits.q.empty();
     const double error =
         in_digits ? static_cast<double>(differences_from_first({now.digits.initial_energy, now.digits.energy}).back())
@@ -324,7 +325,7 @@ class Shell {
   void save(const std::string& name, bool replace) {
     const std::filesystem::path folder = name;
     if (std::filesystem::exists(folder) && !replace) {
-      throw FileError("the folder " + name + " exists; save! " + name + " replaces the run in it");
+      throw FileError("the folder " + name + " exists; to replace the run in it, use save! " + name);
     }
     save_session(session_, samples_, last(), folder, replace);
     if (prompts_ && !options_.quiet) std::cout << "written to " << name << '\n';
@@ -333,12 +334,12 @@ class Shell {
   Session session_;
   SampleKeeper samples_;
   const ShellOptions& options_;
-  bool interactive_;  // somebody can correct an error
+  bool interactive_;  // input from a terminal: after an error the user can type another line
   bool prompts_;
   bool quit_ = false;
-  Outcome outcome_ = Outcome::done;  // of the last step command
+  Outcome outcome_ = Outcome::done;  // result of the last step command
   double seconds_ = 0;
-  std::vector<std::string> warned_;  // kinds of warnings printed
+  std::vector<std::string> warned_;  // kinds of the warnings that were printed
 };
 
 }  // namespace
@@ -347,10 +348,10 @@ int shell_command(const ShellOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
-    print_notes(unused_measures(scenario, "a session takes every step that it is told to"), options.quiet);
-    print_notes(unused_figures(scenario, "a session draws nothing; hamflow plot draws what save keeps"), options.quiet);
+    print_notes(unused_measures(scenario, "a session only takes the steps that are typed"), options.quiet);
+    print_notes(unused_figures(scenario, "a session draws no figures; use save and hamflow plot"), options.quiet);
     if (!scenario.record.empty())
-      print_notes({run_path(run_keys().record) + " is not used: a session keeps samples by steps"}, options.quiet);
+      print_notes({run_path(run_keys().record) + " is not used: a session records by number of steps"}, options.quiet);
     return Shell(scenario, options).read_commands();
   });
 }

@@ -1,4 +1,4 @@
-// hamflow sweep: an ensemble over keys of a scenario, one row of a table for each member.
+// hamflow sweep: runs a scenario for many values of its keys and writes a table with one row for each member.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ fs::path folder_for(const SweepCommandOptions& options) {
   return fs::path(options.scenario).stem().string() + ".sweep";
 }
 
-/// What is wrong with the options together.
+/// Refuses options that exclude each other.
 void check_together(const SweepCommandOptions& options) {
   if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
   if (options.resume && options.out == "none")
@@ -51,7 +51,8 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
   std::cout << (!options.json ? report.text : writes ? report.json : sweep.json_with_rows(report));
   if (writes && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder_for(options).string());
-    if (report.status == "interrupted") std::cout << fmt::format("{:<20}the same command with --resume\n", "to go on");
+    if (report.status == "interrupted")
+      std::cout << fmt::format("{:<20}the same command with --resume\n", "to continue");
   }
   print_warnings(report.warnings);
   std::vector<std::string> notes = report.failures;
@@ -61,11 +62,10 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
     print_error(failure, &failure == &report.failures.back() ? report.hint : "");
 }
 
-/// Without a figure there is nothing to colour.
+/// Refuses options of a figure, because no figure was asked for.
 void refuse_colour(const std::string& colour, bool mean) {
-  if (mean) throw Rejection("--mean", "found --mean without --figure; allowed beside --figure FILE");
-  if (!colour.empty())
-    throw Rejection("--colour", "found " + colour + " without --figure; allowed beside --figure FILE");
+  if (mean) throw Rejection("--mean", "found --mean without --figure; allowed with --figure FILE");
+  if (!colour.empty()) throw Rejection("--colour", "found " + colour + " without --figure; allowed with --figure FILE");
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ int sweep_command(const SweepCommandOptions& options) {
     preparation.reset();
     print(sweep, report, writes, options);
     if (!draws || report.status == "failed") return exit_status(report.status);
-    const int drawn = written_behind_report([&] { sweep.draw(options.figure, options.colour, options.mean); });
+    const int drawn = write_after_report([&] { sweep.draw(options.figure, options.colour, options.mean); });
     return drawn != exit_done ? drawn : exit_status(report.status);
   };
   return guarded(options.json, run, "", &kept);

@@ -1,4 +1,4 @@
-// hamflow verify METHOD...|--all [--problem P] [--json]: the property table, measured.
+// hamflow verify METHOD...|--all [--problem P] [--json]: measures the table of properties.
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -12,8 +12,8 @@
 namespace hamflow::app {
 
 namespace {
-/// What was measured before an interrupt, as the whole would have been printed. Threads that are still measuring have
-/// nothing to save: the process ends without them.
+/// Prints the rows measured before Ctrl-C, in the usual format, and ends the process. Threads that are still measuring
+/// have nothing to save, so nobody waits for them.
 [[noreturn]] void end_interrupted(const std::vector<PropertyRow>& rows, bool json) {
   if (json) {
     std::cout << verification_json(rows, true);
@@ -27,7 +27,7 @@ namespace {
 int verify_command(const VerifyOptions& options) {
   return guarded(options.json, [&] {
     if (options.all && !options.methods.empty())
-      throw Rejection("METHOD", "found METHOD beside --all; allowed one of them");
+      throw Rejection("METHOD", "found METHOD together with --all; allowed one of them");
     if (!options.all && options.methods.empty()) throw Error("verify needs at least one METHOD, or --all");
     catch_interrupts();
     Verification verification({.methods = options.methods, .all = options.all, .problem = options.problem});

@@ -1,5 +1,5 @@
-// The sub-commands. Each returns the exit status: 0 done; 1 the run failed (numerics); 2 the request was wrong, nothing
-// ran; 3 input or output failed; 130 stopped by Ctrl-C.
+// The sub-commands. Each returns the exit status: 0: done; 1: the run failed (numerics); 2: the request was wrong and
+// nothing ran; 3: input or output failed; 130: Ctrl-C stopped the command.
 #pragma once
 
 #include <map>
@@ -24,28 +24,28 @@ int run_command(const RunOptions& options);
 struct SweepCommandOptions {
   std::string scenario;
   std::vector<std::string> varied;  // PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA
-  bool zip = false;                 // values in step, not every combination
+  bool zip = false;                 // pair the n-th values of all keys; false: every combination
   std::vector<std::string> sets;
   std::string out;    // a folder, "none", or empty for <stem>.sweep
   std::string lanes;  // auto, none, generic, avx2, avx512
-  int threads = 0;    // 0: as the scenario says, else all cores
+  int threads = 0;    // 0: the scenario's number, or all cores if it has none
   bool force = false;
   bool resume = false;
   bool json = false;
   bool quiet = false;
   std::string figure;  // a file; empty: none
-  std::string colour;  // a column; empty: the section where there is one, else energy/max_error
-  bool mean = false;   // of columns, over all varied keys but the first
+  std::string colour;  // a column; empty: the Poincare section if the run has one, else energy/max_error
+  bool mean = false;   // draw means of the columns over all varied keys except the first
 };
 int sweep_command(const SweepCommandOptions& options);
 
 struct PlotOptions {
   std::vector<std::string> runs;  // folders or their run.h5
-  std::string kind;               // empty: orbit where there is one, else phase
+  std::string kind;               // empty: orbit if the problem has one, else phase
   std::string file;
   std::string x;     // a column
-  std::string y;     // columns, commas between
-  std::string at;    // times, commas between
+  std::string y;     // columns, separated by commas
+  std::string at;    // times, separated by commas
   std::string size;  // WxH in centimetres, or with a unit
   int dpi = 0;
   bool no_title = false;
@@ -54,18 +54,18 @@ int plot_command(const PlotOptions& options);
 
 struct VerifyOptions {
   std::vector<std::string> methods;  // as on the command line, e.g. "stv4", "cg(1,5)"
-  bool all = false;                  // every method of the catalogue instead
-  std::string problem;               // empty: the default ones
+  bool all = false;                  // measure every method of the catalogue
+  std::string problem;               // empty: the default problems
   bool json = false;
 };
-/// 1: a claim differs from its measurement
+/// Returns 1 if a claim differs from its measurement.
 int verify_command(const VerifyOptions& options);
 
 struct CertifyOptions {
   std::string file;    // csv, columns, log.lammps, HDF5
-  std::string time;    // a column, by name or number; of HDF5 the path of a dataset
+  std::string time;    // a column, by name or number; in HDF5 the path of a dataset
   std::string energy;  // likewise
-  std::string scale;   // a number; empty: the size of the first energy
+  std::string scale;   // a number; empty: the absolute value of the first energy
   bool json = false;
 };
 int certify_command(const CertifyOptions& options);
@@ -79,10 +79,10 @@ struct NewOptions {
 int new_command(const NewOptions& options);
 
 struct ConvertOptions {
-  std::string input;  // a scenario, the folder of a run or its run.h5; empty: a state is given
+  std::string input;  // a scenario, the folder of a run or its run.h5; empty: the options give a state
   std::string to;
-  std::string from;  // of a given state
-  std::string q;     // numbers with commas between
+  std::string from;  // coordinates of the given state
+  std::string q;     // numbers, separated by commas
   std::string p;
   std::string output;  // empty: standard output
   std::vector<std::string> sets;
@@ -93,7 +93,7 @@ int convert_command(const ConvertOptions& options);
 struct ReverseOptions {
   std::string scenario;
   std::vector<std::string> sets;
-  std::string out;  // a folder, or "none", as without it
+  std::string out;  // a folder; empty or "none": nothing is written
   bool force = false;
   bool resume = false;
   bool json = false;
@@ -104,8 +104,8 @@ int reverse_command(const ReverseOptions& options);
 struct CompareOptions {
   std::string scenario;
   std::vector<std::string> sets;
-  std::string methods;  // commas between, but not those in parentheses
-  std::string dts;      // numbers with commas between; empty: from twice the scenario's dt to a sixteenth
+  std::string methods;  // separated by commas; commas inside parentheses belong to a method
+  std::string dts;      // numbers, separated by commas; empty: from twice the scenario's dt to a sixteenth of it
   std::string out;      // a folder; empty or "none": nothing is written
   std::string csv;      // a file
   std::string figure;   // .svg, .pdf or .png
@@ -123,13 +123,13 @@ struct ShellOptions {
 };
 int shell_command(const ShellOptions& options);
 
-/// Starts hamflow-reproduce with these arguments; returns only where that fails.
+/// Starts hamflow-reproduce with these arguments; returns only if the start fails.
 int reproduce_command(const std::vector<std::string>& arguments);
 
 /// @param name a run, a scenario file, a method or a problem
 int cite_command(const std::string& name);
 int list_command(const std::string& what, bool all, bool json);
-/// @param folder of a reproduction, for an experiment; empty: the one that `reproduce` writes into
+/// @param folder of a reproduction, for an experiment; empty: the folder into which `reproduce` writes
 int show_command(const std::string& name, const std::string& folder);
 
 }  // namespace hamflow::app

@@ -1,5 +1,5 @@
-// The experiments of the two theses are a program of their own, hamflow-reproduce. `reproduce`, `list experiments` and
-// `show ID` start it.
+// A separate program, hamflow-reproduce, carries out the experiments of the two theses. `reproduce`, `list experiments`
+// and `show ID` start it.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace hamflow::app {
 
-/// Replaces this process by hamflow-reproduce, which lies beside this program or in PATH.
-/// @throws FileError where there is none, naming the command that builds it
+/// Replaces this process by hamflow-reproduce, which is looked for in the folder of this program, then in PATH.
+/// @throws FileError if it is not found; the message names the command that builds it
 [[noreturn]] void become_reproduce(const std::vector<std::string>& arguments);
-/// Empty where hamflow-reproduce is not installed.
+/// The ids of all experiments; empty if hamflow-reproduce is not installed.
 std::vector<std::string> experiment_ids();
 
 }  // namespace hamflow::app

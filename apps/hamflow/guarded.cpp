@@ -28,13 +28,13 @@ int failed(bool json, const std::string& kind, const std::string& message, int s
   return status;
 }
 
-/// Libraries that read and write crash where a small allocation fails. A command begins only with so much at hand that
-/// it is the large ones that fail, which are ours.
+/// Some input and output libraries crash if a small allocation fails. A command therefore starts only if 64 MiB can be
+/// allocated. If memory runs out later, one of our large allocations fails first, and we handle that.
 void require_memory() {
-  constexpr std::size_t at_hand = std::size_t{64} << 20;
-  void* const trial = mmap(nullptr, at_hand, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  constexpr std::size_t required = std::size_t{64} << 20;
+  void* const trial = mmap(nullptr, required, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (trial == MAP_FAILED) throw std::bad_alloc();
-  munmap(trial, at_hand);
+  munmap(trial, required);
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
   }
 }
 
-int written_behind_report(const std::function<void()>& files) {
+int write_after_report(const std::function<void()>& files) {
   try {
     files();
     return exit_done;
@@ -103,7 +103,7 @@ void require_folder_of(const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::error_code ignored;
   if (file.empty() || folder.empty() || std::filesystem::is_directory(folder, ignored)) return;
-  throw hamflow::FileError(file + " cannot be written: there is no folder " + folder.string());
+  throw hamflow::FileError(file + " cannot be written: the folder " + folder.string() + " does not exist");
 }
 
 int written_out(int status) {

@@ -5,8 +5,8 @@
 namespace hamflow::app {
 
 namespace {
-/// The first checkpoint only says whose folder it is. Whether there is another is asked when memory has run out, and
-/// may run out again: nothing is promised then.
+/// The first checkpoint holds no step; it only marks the folder as one of this run. This function is called after
+/// memory has run out and may run out of it again; then it returns false, so that no result is promised.
 bool has_saved_a_step(const std::filesystem::path& checkpoint) {
   try {
     return !read_checkpoint(checkpoint).simulation.empty();
@@ -18,8 +18,8 @@ bool has_saved_a_step(const std::filesystem::path& checkpoint) {
 
 std::string KeptWork::sentence() const {
   if (folder.empty() || (!checkpoint.empty() && !has_saved_a_step(folder / checkpoint))) return {};
-  return "what was computed is in " + folder.string() + ", and the same command with --resume" +
-         (forced ? " in place of --force" : "") + " goes on";
+  return "the results so far are in " + folder.string() + "; to continue, give the same command with --resume" +
+         (forced ? " in place of --force" : "");
 }
 
 }  // namespace hamflow::app

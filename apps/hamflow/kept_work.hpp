@@ -1,4 +1,4 @@
-// What a command that runs out of memory leaves behind, where it has a folder that --resume goes on with.
+// The results that a command has saved when it runs out of memory, if --resume can continue from its folder.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 namespace hamflow::app {
 
 struct KeptWork {
-  bool forced = false;             // the command was given --force, which --resume takes the place of
-  std::filesystem::path folder{};  // empty: the work in it has not begun
-  /// Says in the folder what was computed, if it was saved at all; empty: whatever is in the folder was computed.
+  bool forced = false;             // the command was given --force, which --resume has to replace
+  std::filesystem::path folder{};  // empty: the command has not yet written to a folder
+  /// The checkpoint file in the folder, which tells whether a step was saved; empty: every file there is a result.
   std::string checkpoint{};
 
-  /// Where it is and how to go on; empty where there is nothing to go on from.
+  /// Says where the results are and how to continue; empty if there is nothing to continue from.
   std::string sentence() const;
 };
 

@@ -1,4 +1,4 @@
-// The command line: parse, call, print. No numerics.
+// The command line: declares the options, parses them and calls the commands. It contains no numerics.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -24,11 +24,11 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
   return sub;
 }
 
-/// The keys that choose between problems of one name, each with the names of those problems.
+/// The keys that choose between problems of the same name, each with the names of these problems.
 std::vector<std::pair<std::string, std::vector<std::string>>> problems_by_choice() {
   std::vector<std::pair<std::string, std::vector<std::string>>> all;
   for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
-    if (entry.structure) continue;  // its choices are what was typed
+    if (entry.structure) continue;  // the choices of such an entry are typed in the scenario
     for (const auto& choice : entry.info.variant) {
       const auto same = [&](const auto& one) { return one.first == choice.first; };
       auto place = std::find_if(all.begin(), all.end(), same);
@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> problems_by_choice
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that reaches its limit is an error of writing, as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its size limit then fails in write(), as on a full disk
   CLI::App app{"hamflow integrates Hamiltonian systems and shows which structure a method preserves."};
   app.name("hamflow");
   app.set_version_flag("--version", "hamflow " HAMFLOW_VERSION);
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
 
   RunOptions run;
   CLI::App* run_command =
-      add(app, "run", "Run a scenario: integrate, record, draw, sum up",
+      add(app, "run", "Run a scenario: integrate, record samples, draw figures, print a summary",
           "  hamflow run kepler.toml\n  hamflow run kepler.toml --set run.dt=0.05 --set method.name=verlet "
           "--out finer.run\n  hamflow run kepler.toml --json --out none\n"
           "  hamflow run kepler.toml --resume\n");
@@ -64,36 +64,37 @@ int main(int argc, char** argv) {
   run_command->add_option("--set", run.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  run_command->add_option("--out", run.out, "folder for the results; \"none\" writes nothing")->type_name("DIR");
+  run_command->add_option("--out", run.out, "output folder [FILE without .toml, plus .run]; \"none\" writes nothing")
+      ->type_name("DIR");
   run_command->add_flag("--force", run.force, "replace the run in an existing folder");
-  run_command->add_flag("--resume", run.resume, "go on from the last checkpoint, or take more steps after the end");
-  run_command->add_flag("--json", run.json, "print the summary as JSON, and nothing else, on stdout");
-  run_command->add_flag("--quiet", run.quiet, "no progress, no notes");
+  run_command->add_flag("--resume", run.resume, "continue from the last checkpoint, or take more steps after the end");
+  run_command->add_flag("--json", run.json, "print only the summary, as JSON, on stdout");
+  run_command->add_flag("--quiet", run.quiet, "print no progress and no notes");
   run_command->callback([&] { status = hamflow::app::run_command(run); });
 
   PlotOptions plot;
   CLI::App* plot_command =
-      add(app, "plot", "Draw a figure of a run, or of several, also of those that go on or were cut short",
+      add(app, "plot", "Draw a figure of one or several runs, finished, running or interrupted",
           "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n"
           "  hamflow plot coarse.run fine.run --kind energy-error --size 8.5x6 --no-title -o both.pdf\n"
           "  hamflow plot kepler.run --kind time --y x,p_x --dpi 600 -o x.png\n"
           "  hamflow plot gas_121.run --kind particles --at 0,0.01 -o gas.png\n");
-  plot_command->add_option("run", plot.runs, "folders of runs, or their run.h5")->required()->type_name("RUN...");
+  plot_command->add_option("run", plot.runs, "folders of runs, or their files run.h5")->required()->type_name("RUN...");
   plot_command->add_option("--kind", plot.kind, hamflow::joined(hamflow::figure_names()))
       ->type_name("KIND")
       ->check(CLI::Validator(hamflow::unknown_figure, "", ""));
   plot_command
-      ->add_option("--x", plot.x, "column of the horizontal axis, of the kinds orbit, phase, time, particles, tracks")
+      ->add_option("--x", plot.x, "column of the horizontal axis, for the kinds orbit, phase, time, particles, tracks")
       ->type_name("COLUMN");
-  plot_command->add_option("--y", plot.y, "columns of the vertical axis, commas between")->type_name("COLUMN,...");
-  plot_command->add_option("--at", plot.at, "times of samples, of the kinds particles, radial, commas between")
+  plot_command->add_option("--y", plot.y, "columns of the vertical axis, separated by commas")->type_name("COLUMN,...");
+  plot_command->add_option("--at", plot.at, "times to draw, separated by commas, for the kinds particles and radial")
       ->type_name("T,...");
-  plot_command->add_option("--size", plot.size, "width and height in centimetres, e.g. 8.5x6; also 85x60mm, 3.35x2.4in")
+  plot_command->add_option("--size", plot.size, "width and height in centimetres, e.g. 8.5x6; or 85x60mm, 3.35x2.4in")
       ->type_name("WxH");
-  plot_command->add_option("--dpi", plot.dpi, "pixels to the inch of a .png [300]")
+  plot_command->add_option("--dpi", plot.dpi, "resolution of a .png in pixels per inch [300]")
       ->type_name("N")
       ->transform(whole_number(50, 2400));
-  plot_command->add_flag("--no-title", plot.no_title, "without the line above the figure");
+  plot_command->add_flag("--no-title", plot.no_title, "omit the title above the figure");
   plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
       ->required()
       ->type_name("FILE");
@@ -101,7 +102,7 @@ int main(int argc, char** argv) {
 
   SweepCommandOptions sweep;
   CLI::App* sweep_command = add(
-      app, "sweep", "Run a scenario for many values of some keys: one table, one row each, on all cores",
+      app, "sweep", "Run a scenario for many values of some keys, on all cores; the table has one row per run",
       "  hamflow sweep kepler.toml --vary problem.orbit.r_aph=1:5:1000\n"
       "  hamflow sweep pendulum.toml --vary 'problem.initial.q[0]=-3:3:200' --vary 'problem.initial.p[0]=-2:2:200'\n"
       "  hamflow sweep henon.toml --vary problem.initial.q[1]=-0.4:0.6:100 --figure section.png\n"
@@ -113,85 +114,92 @@ int main(int argc, char** argv) {
   sweep_command
       ->add_option(
           "--vary", sweep.varied,
-          "a key and its values: PATH=a:b:n, n values from a to b, PATH=v1,v2,..., or PATH=FORMULA, in which "
-          "other varied keys stand by their paths; of several, every combination, the last one changing fastest")
+          "a key and its values: PATH=a:b:n (n values from a to b), PATH=v1,v2,..., or PATH=FORMULA, a formula of "
+          "other varied keys, named by their paths; several --vary give every combination, the last one varies "
+          "fastest")
       ->required()
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false);
-  sweep_command->add_flag("--zip", sweep.zip, "the n-th value of each key together, not every combination");
+  sweep_command->add_flag("--zip", sweep.zip, "combine the n-th values of all keys, not every value with every other");
   sweep_command->add_option("--set", sweep.sets, "override a key for all members, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")->type_name("DIR");
-  sweep_command->add_option("--threads", sweep.threads, "how many, 0: all cores; results do not depend on it")
+  sweep_command
+      ->add_option("--out", sweep.out, "output folder [FILE without .toml, plus .sweep]; \"none\" writes nothing")
+      ->type_name("DIR");
+  sweep_command->add_option("--threads", sweep.threads, "number of threads, 0: all cores; does not change results")
       ->type_name("N")
       ->transform(whole_number(0, hamflow::most_sweep_threads));
-  sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
+  sweep_command
+      ->add_option("--lanes", sweep.lanes,
+                   "SIMD instructions: auto, none, generic, avx2, avx512; does not change results")
       ->type_name("SET");
   sweep_command
       ->add_option("--figure", sweep.figure,
-                   "draw --colour over the one or two keys varied, without --colour the section of all "
-                   "members: .svg, .pdf, .png")
+                   "draw the column --colour as a function of the one or two varied keys; without --colour, the "
+                   "Poincare section of all members; .svg, .pdf or .png")
       ->type_name("FILE");
   sweep_command
       ->add_option("--colour", sweep.colour,
-                   "the column to draw, e.g. observables/lyapunov1 [the section; without one energy/max_error]")
+                   "the column to draw, e.g. observables/lyapunov1 [the section; without a section energy/max_error]")
       ->type_name("COLUMN");
   sweep_command->add_flag("--mean", sweep.mean,
-                          "draw the mean of --colour over all varied keys but the first, with its standard error; of "
-                          "several columns with commas between");
+                          "draw the mean of --colour over all varied keys except the first, with its standard error; "
+                          "--colour may then name several columns, separated by commas");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
   sweep_command->add_flag("--resume", sweep.resume,
-                          "go on with the sweep in an existing folder: members that are done are not run again");
+                          "continue the sweep in an existing folder; finished members are not run again");
   sweep_command->add_flag("--json", sweep.json,
-                          "print the summary as JSON, and nothing else, on stdout; with --out none and at most 10^4 "
-                          "members their rows too");
-  sweep_command->add_flag("--quiet", sweep.quiet, "no progress, no notes");
+                          "print only the summary, as JSON, on stdout; with --out none and at most 10^4 members it "
+                          "includes their rows");
+  sweep_command->add_flag("--quiet", sweep.quiet, "print no progress and no notes");
   sweep_command->callback([&] { status = hamflow::app::sweep_command(sweep); });
 
   VerifyOptions verify;
   CLI::App* verify_command =
       add(app, "verify", "Measure the properties of methods: order, symplecticity, reversibility, energy",
           "  hamflow verify stv4 'cg(1,5)'\n  hamflow verify --all\n  hamflow verify rk4 --problem pendulum\n");
-  verify_command->add_option("method", verify.methods, "e.g. stv4, 'cg(1,5)'")->type_name("METHOD");
-  verify_command->add_flag("--all", verify.all, "every method of the catalogue");
+  verify_command->add_option("method", verify.methods, "methods to measure, e.g. stv4, 'cg(1,5)'")->type_name("METHOD");
+  verify_command->add_flag("--all", verify.all, "measure every method of the catalogue");
   verify_command
       ->add_option("--problem", verify.problem,
-                   "measure on this problem; momentum maps on a Kepler ellipse and three bodies, too")
+                   "measure on this problem; conservation of momentum maps is also measured on a Kepler ellipse and "
+                   "three bodies")
       ->type_name("PROBLEM");
   verify_command->add_flag("--json", verify.json, "print JSON");
   verify_command->callback([&] { status = hamflow::app::verify_command(verify); });
 
   CertifyOptions certify;
-  CLI::App* certify_command =
-      add(app, "certify", "Judge the energies in a log of any program: bounded, random walk, linear or undecided",
-          "  hamflow certify energy.csv --time t --energy E\n  hamflow certify columns.txt --time 1 --energy 4\n"
-          "  hamflow certify log.lammps --time Step --energy TotEng\n"
-          "  hamflow certify run.h5 --time samples/t --energy samples/e:2 --scale 0.5 --json\n");
+  CLI::App* certify_command = add(
+      app, "certify", "Classify the energy error in the log of any program: bounded, random walk, linear or undecided",
+      "  hamflow certify energy.csv --time t --energy E\n  hamflow certify columns.txt --time 1 --energy 4\n"
+      "  hamflow certify log.lammps --time Step --energy TotEng\n"
+      "  hamflow certify run.h5 --time samples/t --energy samples/e:2 --scale 0.5 --json\n");
   certify_command
       ->add_option(
           "file", certify.file,
-          "columns with commas, semicolons or blanks between, with or without names; a log of LAMMPS, of whose "
-          "thermo tables the last one is read; or HDF5")
+          "columns separated by commas, semicolons or blanks, with or without names; a LAMMPS log (its last thermo "
+          "table is read); or HDF5")
       ->required()
       ->type_name("FILE");
   const char* const column =
-      "by its name, or its number from 1; of HDF5 the path of a dataset, PATH:2 for its second column";
-  certify_command->add_option("--time", certify.time, std::string("the column of the times, ") + column)
+      "its name, or its number from 1; in HDF5 the path of a dataset, PATH:2 for its second column";
+  certify_command->add_option("--time", certify.time, std::string("the column of the times: ") + column)
       ->required()
       ->type_name("COLUMN");
-  certify_command->add_option("--energy", certify.energy, "the column of the energies, likewise")
+  certify_command->add_option("--energy", certify.energy, "the column of the energies, named in the same way")
       ->required()
       ->type_name("COLUMN");
   certify_command
-      ->add_option("--scale", certify.scale, "the energy that the error is a part of [the size of the first energy]")
+      ->add_option("--scale", certify.scale,
+                   "the energy by which errors are divided [the absolute value of the first energy]")
       ->type_name("X");
-  certify_command->add_flag("--json", certify.json, "print JSON, and nothing else, on stdout");
+  certify_command->add_flag("--json", certify.json, "print only JSON on stdout");
   certify_command->callback([&] { status = hamflow::app::certify_command(certify); });
 
   ReverseOptions reverse;
   CLI::App* reverse_command =
-      add(app, "reverse", "Forward, negate the momenta, forward again, negate: what came back",
+      add(app, "reverse", "Test time reversibility: integrate forward and back, and compare with the start",
           "  hamflow reverse kepler.toml\n  hamflow reverse kepler.toml --set method.name=stv4 --set "
           "run.arithmetic=lattice\n");
   reverse_command->add_option("scenario", reverse.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
@@ -199,55 +207,63 @@ int main(int argc, char** argv) {
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   reverse_command
-      ->add_option("--out", reverse.out, "folder for the states at start, turn and end; \"none\" writes nothing [none]")
+      ->add_option("--out", reverse.out,
+                   "output folder for the states at the start, the turning point and the end; \"none\" writes "
+                   "nothing [none]")
       ->type_name("DIR");
   auto* const reverse_force =
       reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
-  reverse_command->add_flag("--resume", reverse.resume, "go on with the reversal in the folder, from either half")
+  reverse_command
+      ->add_flag("--resume", reverse.resume,
+                 "continue the reversal in the folder, on the way forward or on the way back")
       ->excludes(reverse_force);
-  reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
-  reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
+  reverse_command->add_flag("--json", reverse.json, "print only JSON on stdout");
+  reverse_command->add_flag("--quiet", reverse.quiet, "print no progress and no notes");
   reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });
 
-  // Help and options of reproduce are those of its program, hamflow-reproduce.
+  // hamflow-reproduce parses the options of `reproduce` and prints its help.
   app.add_subcommand("reproduce",
-                     "Carry out the experiments of both theses: figures, tables, statements, and verdicts");
+                     "Repeat the experiments of both theses and check their figures, tables and statements");
 
   CompareOptions compare;
   CLI::App* compare_command =
-      add(app, "compare", "Work and precision: error, evaluations and time of several methods with several steps",
+      add(app, "compare", "Compare methods (work-precision): error, evaluations and time, for several step sizes",
           "  hamflow compare kepler.toml --methods 'verlet,stv4,cg(1,5)'\n"
           "  hamflow compare kepler.toml --methods stv4,rk4 --dt 0.1,0.05,0.025 --figure work.svg --csv work.csv\n");
   compare_command->add_option("scenario", compare.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
-  compare_command->add_option("--methods", compare.methods, "commas between, e.g. 'verlet,stv4,cg(1,5)'")
+  compare_command->add_option("--methods", compare.methods, "methods, separated by commas, e.g. 'verlet,stv4,cg(1,5)'")
       ->required()
       ->type_name("METHODS");
   compare_command
-      ->add_option("--dt", compare.dts, "steps, commas between; each is moved to the nearest that divides t_end")
+      ->add_option("--dt", compare.dts,
+                   "step sizes, separated by commas; each is moved to the nearest one that divides t_end [from twice "
+                   "run.dt down to a sixteenth of it]")
       ->type_name("DT");
   compare_command->add_option("--set", compare.sets, "override a key: dotted path and TOML value, e.g. run.t_end=10")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  compare_command->add_option("--out", compare.out, "folder for compare.json, compare.csv and figures/")
+  compare_command->add_option("--out", compare.out, "output folder for compare.json, compare.csv and figures/ [none]")
       ->type_name("DIR|none");
   compare_command->add_flag("--force", compare.force, "replace the files in an existing folder");
-  compare_command->add_option("--csv", compare.csv, "write the table to a file")->type_name("FILE");
-  compare_command->add_option("--figure", compare.figure, "draw it: .svg, .pdf or .png")->type_name("FILE");
-  compare_command->add_flag("--json", compare.json, "print JSON, and nothing else, on stdout");
-  compare_command->add_flag("--quiet", compare.quiet, "no progress, no notes");
+  compare_command->add_option("--csv", compare.csv, "write the table to a CSV file")->type_name("FILE");
+  compare_command->add_option("--figure", compare.figure, "draw the work-precision diagram: .svg, .pdf or .png")
+      ->type_name("FILE");
+  compare_command->add_flag("--json", compare.json, "print only JSON on stdout");
+  compare_command->add_flag("--quiet", compare.quiet, "print no progress and no notes");
   compare_command->callback([&] { status = hamflow::app::compare_command(compare); });
 
   ShellOptions shell;
   CLI::App* shell_command = add(
-      app, "shell", "Steer a run line by line: step n, dt x, tol x, method m, show, save, reset, reverse, help, quit",
+      app, "shell",
+      "Control a run by typed commands: step n, dt x, tol x, method m, show, save, reset, reverse, help, quit",
       "  hamflow shell kepler.toml\n  printf 'step 100\\ndt 0.01\\nstep 100\\nshow\\nsave fine.run\\n' | hamflow shell "
       "kepler.toml\n");
   shell_command->add_option("scenario", shell.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
   shell_command->add_option("--set", shell.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  shell_command->add_flag("--json", shell.json, "show prints one JSON object per line");
-  shell_command->add_flag("--quiet", shell.quiet, "no progress, no notes");
+  shell_command->add_flag("--json", shell.json, "let the command show print one JSON object per line");
+  shell_command->add_flag("--quiet", shell.quiet, "print no progress and no notes");
   shell_command->callback([&] { status = hamflow::app::shell_command(shell); });
 
   NewOptions fresh;
@@ -255,9 +271,11 @@ int main(int argc, char** argv) {
                               "  hamflow new central-force > my.toml && hamflow run my.toml\n"
                               "  hamflow new henon-heiles --method 'cg(2,6)' --all > all.toml\n"
                               "  hamflow new central-force --potential hooke --coordinates polar > hooke.toml\n");
-  new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
+  new_command->add_option("problem", fresh.problem, "a problem; hamflow list problems lists them")
+      ->required()
+      ->type_name("PROBLEM");
   for (const auto& [key, owners] : problems_by_choice()) {
-    new_command->add_option("--" + key, fresh.variant[key], "of " + hamflow::joined(owners));
+    new_command->add_option("--" + key, fresh.variant[key], "for " + hamflow::joined(owners));
   }
   new_command->add_option("--method", fresh.method, "with its options, e.g. 'cg(2,6)' [the usual one]")
       ->type_name("METHOD");
@@ -276,38 +294,39 @@ int main(int argc, char** argv) {
       ->required()
       ->type_name("COORDINATES");
   convert_command->add_option("--from", convert.from, "the coordinates of --q and --p")->type_name("COORDINATES");
-  convert_command->add_option("--q", convert.q, "a state: positions, commas between")->type_name("Q1,Q2");
-  convert_command->add_option("--p", convert.p, "its canonical momenta")->type_name("P1,P2");
-  convert_command->add_option("--set", convert.sets, "override a key of the scenario first, e.g. method.name=cg")
+  convert_command->add_option("--q", convert.q, "the positions of a state, separated by commas")->type_name("Q1,Q2");
+  convert_command->add_option("--p", convert.p, "the canonical momenta of the state")->type_name("P1,P2");
+  convert_command
+      ->add_option("--set", convert.sets, "override a key of the scenario before the conversion, e.g. method.name=cg")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  convert_command->add_option("-o,--output", convert.output, "write to a file; of a run .h5 or .csv")
+  convert_command->add_option("-o,--output", convert.output, "output file; for a run .h5 or .csv [stdout]")
       ->type_name("FILE");
-  convert_command->add_flag("--json", convert.json, "print the state, or those of a run, as JSON");
+  convert_command->add_flag("--json", convert.json, "print the state, or the states of a run, as JSON");
   convert_command->callback([&] { status = hamflow::app::convert_command(convert); });
 
   std::string what;
   bool list_all = false;
   bool list_json = false;
   CLI::App* list_command = add(
-      app, "list", "List the catalogue",
+      app, "list", "List methods, problems or experiments",
       "  hamflow list methods\n  hamflow list methods --all\n  hamflow list problems\n  hamflow list experiments\n");
   list_command->add_option("what", what, "methods, problems or experiments")
       ->required()
       ->check(one_of({"methods", "problems", "experiments"}));
-  list_command->add_flag("--all", list_all, "each method with a line of its own");
-  list_command->add_flag("--json", list_json, "print JSON, always of all");
+  list_command->add_flag("--all", list_all, "list every method on a separate line");
+  list_command->add_flag("--json", list_json, "print JSON; it always lists all");
   list_command->callback([&] { status = hamflow::app::list_command(what, list_all, list_json); });
 
   std::string name, shown_folder;
-  CLI::App* show_command = add(app, "show", "Tell everything about a problem, a method or an experiment",
+  CLI::App* show_command = add(app, "show", "Describe a problem, a method, a figure or an experiment",
                                "  hamflow show central-force\n  hamflow show cg\n  hamflow show S-T81 --out quick\n");
   show_command->add_option("name", name, "a problem, a method, a figure or an experiment")
       ->required()
       ->type_name("NAME");
   show_command
       ->add_option("--out", shown_folder,
-                   "of an experiment: the folder into which it was carried out, with its claims [reproduce]")
+                   "for an experiment: the output folder of hamflow reproduce; its results are shown too [reproduce]")
       ->type_name("DIR");
   show_command->callback([&] { status = hamflow::app::show_command(name, shown_folder); });
 
@@ -325,7 +344,7 @@ int main(int argc, char** argv) {
     reject_missing_value(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // CLI11's own statuses start at 100: help is 0, everything else a wrong request.
+    // The statuses of CLI11 start at 100. Help returns 0; every other one is a wrong request.
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return written_out(app.exit(error));
     const std::vector<hamflow::Complaint> complaints = complaints_of(app, error);
     status = exit_rejected;

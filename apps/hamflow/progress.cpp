@@ -18,14 +18,14 @@ namespace hamflow::app {
 
 namespace {
 volatile sig_atomic_t asked_to_stop = 0;
-volatile sig_atomic_t answered = 0;       // somebody has seen asked_to_stop
-volatile sig_atomic_t stops_at_once = 0;  // at the next signal
+volatile sig_atomic_t answered = 0;       // the computation has called interrupted() since asked_to_stop was set
+volatile sig_atomic_t stops_at_once = 0;  // the next signal ends the process
 volatile sig_atomic_t preparing = 0;
-constexpr double grace = 0.8;        // seconds from Ctrl-C to the line that says what is waited for
-constexpr double long_start = 20;    // seconds until a preparation says what it does
-constexpr double long_silence = 20;  // seconds until a run without a terminal says how long it will take
+constexpr double grace = 0.8;        // grace period after Ctrl-C, in seconds, before a line on stderr explains the wait
+constexpr double long_start = 20;    // seconds until a preparation prints what it does
+constexpr double long_silence = 20;  // seconds until a run without a terminal prints the time left
 
-// Written while no timer runs, read by the timer's handler.
+// These strings are written while no timer runs; the handler of the timer reads them.
 std::string long_start_text;
 std::string stopped_json;
 
@@ -36,7 +36,7 @@ void start_timer(double seconds) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-/// write() is allowed in a signal handler.
+/// Uses write(), which is allowed in a signal handler.
 void say(int file, const char* text, std::size_t size) {
   const ssize_t ignored = write(file, text, size);
   (void)ignored;
@@ -53,7 +53,7 @@ extern "C" void note_time(int) {
   if (asked_to_stop == 0) {
     if (preparing != 0) say(STDERR_FILENO, long_start_text.data(), long_start_text.size());
   } else if (preparing != 0 && answered == 0) {
-    constexpr std::string_view text = "error: stopped before the first step: nothing was computed\n";
+    constexpr std::string_view text = "error: stopped before the first step; nothing was computed\n";
     say(STDERR_FILENO, text.data(), text.size());
     say(STDOUT_FILENO, stopped_json.data(), stopped_json.size());
     _exit(exit_interrupted);
@@ -92,7 +92,7 @@ void catch_interrupts() {
   handle(SIGTERM, note_interrupt);
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);
-  if (before.sa_handler != SIG_IGN) handle(SIGHUP, note_interrupt);  // nohup means it
+  if (before.sa_handler != SIG_IGN) handle(SIGHUP, note_interrupt);  // nohup ignores SIGHUP, and that is kept
 }
 
 bool interrupted() {
@@ -103,8 +103,8 @@ bool interrupted() {
 Preparation::Preparation(const std::string& what, bool json, bool quiet) {
   start_timer(0);
   long_start_text =
-      quiet ? "" : fmt::format("note: {} has taken {:g} s so far and goes on; Ctrl-C stops it\n", what, long_start);
-  stopped_json = json ? failure_json("interrupted", "stopped before the first step: nothing was computed") : "";
+      quiet ? "" : fmt::format("note: {} has taken {:g} s so far and continues; Ctrl-C stops it\n", what, long_start);
+  stopped_json = json ? failure_json("interrupted", "stopped before the first step; nothing was computed") : "";
   preparing = 1;
   handle(SIGALRM, note_time);
   start_timer(long_start);
@@ -145,11 +145,11 @@ void Progress::draw(double part, const std::string& text) {
 }
 
 void Progress::show(std::int64_t step) {
-  if (steps_ == 0 || (step == first_ && !is_terminal_) || !is_due()) return;  // the one note says how long it takes
+  if (steps_ == 0 || (step == first_ && !is_terminal_) || !is_due()) return;  // the only note has to tell the time left
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const double rate = static_cast<double>(step - first_) / seconds;
   const double part = static_cast<double>(step) / static_cast<double>(steps_);
-  // Before the first step there is no rate to tell the time left from.
+  // The time left follows from the rate, which is unknown before the first step.
   draw(part, rate > 0
                  ? fmt::format("{:.3g} steps/s  {} left", rate, duration(static_cast<double>(steps_ - step) / rate))
                  : std::string("before the first step"));

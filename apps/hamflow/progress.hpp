@@ -1,5 +1,5 @@
-// A progress line on stderr when it is a terminal, one note about a long run when it is not; and Ctrl-C, which stops at
-// a step boundary.
+// Progress on stderr: a line that is redrawn if stderr is a terminal, else one note about a long run. Also the handling
+// of Ctrl-C, which stops a run at the end of a step.
 #pragma once
 
 #include <chrono>
@@ -9,14 +9,14 @@
 
 namespace hamflow::app {
 
-/// From now on Ctrl-C only asks to stop. Where nobody has called interrupted() a second later, a line on stderr says
-/// what is waited for; from then on another Ctrl-C ends the program at once.
+/// After this call, Ctrl-C only requests a stop. If interrupted() has not been called a second later, a line on stderr
+/// explains the wait; from then on another Ctrl-C ends the program at once.
 void catch_interrupts();
 bool interrupted();
 
-/// Work before the first step, which cannot be interrupted and has no result yet. While it lives, Ctrl-C ends the
-/// program within a second, even if nobody calls interrupted(); after 20 s a line on stderr says what takes the time.
-/// One at a time.
+/// Marks the work before the first step, which cannot be interrupted and has no result yet. While the object exists,
+/// Ctrl-C ends the program within a second, even if nobody calls interrupted(); after 20 s a line on stderr says which
+/// work takes the time. Only one object may exist at a time.
 class Preparation {
  public:
   /// @param what "setting up the run"   @param json whether stdout gets a JSON text when Ctrl-C ends the program
@@ -33,7 +33,7 @@ class Progress {
   ~Progress();
   /// Redraws at most ten times a second.
   void show(std::int64_t step);
-  /// The same of work that is not steps. @param part of the time, in [0, 1]   @param what e.g. "run 3 of 66"
+  /// The same for work that is not counted in steps. @param part finished, in [0, 1]   @param what e.g. "run 3 of 66"
   void show(double part, std::optional<double> seconds_left, const std::string& what);
 
  private:
@@ -45,7 +45,7 @@ class Progress {
   bool quiet_;
   bool is_terminal_;
   bool drawn_ = false;
-  bool noted_ = false;  // elsewhere than on a terminal
+  bool noted_ = false;  // the note was printed, because stderr is not a terminal
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_ = begin_;
 };

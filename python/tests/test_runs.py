@@ -102,7 +102,7 @@ def test_messages_name_arguments(tmp_path):
     for how in (lambda: hf.run(pendulum(), out=tmp_path / "a.run"),
                 lambda: hf.sweep(pendulum(), {"run.dt": [0.1, 0.2]}, out=tmp_path / "s")):
         how()
-        with pytest.raises(hf.FileError, match='existing="resume" to go on.*existing="replace"') as caught:
+        with pytest.raises(hf.FileError, match='existing="resume" to continue.*existing="replace"') as caught:
             how()
         assert "--" not in str(caught.value)
     with pytest.raises(hf.Rejection, match='existing="resume"') as caught:

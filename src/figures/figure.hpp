@@ -60,7 +60,7 @@ struct FigureData : FigureSamples {
   std::vector<std::string> bodies{};  // their names, where they have some; empty: body 1, body 2, ...
   FigureParticles particles{};
   /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.
-  FigureSamples opening{};
+  FigureSamples first_steps{};
   double end = std::numeric_limits<double>::quiet_NaN();  // time at which the run ends; NaN: at its last sample
   bool every_step = false;                                // is a sample: nothing is known between them
   /// t and q of the samples with the located bounces between them, where a line has its corners; empty without any.

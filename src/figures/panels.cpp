@@ -65,16 +65,16 @@ Series track_of(const Curve& track, Series how) {
   return how;
 }
 
-bool is_whole_run(const FigureSamples& opening, const FigureData& data) {
-  if (opening.t.empty() || data.t.empty()) return true;
+bool is_whole_run(const FigureSamples& first_steps, const FigureData& data) {
+  if (first_steps.t.empty() || data.t.empty()) return true;
   const double end = std::isfinite(data.end) ? data.end : data.t.back();
   constexpr double rounding = 1e-9;  // of a time that is a sum of steps
-  return std::abs(opening.t.back()) >= (1 - rounding) * std::abs(end);
+  return std::abs(first_steps.t.back()) >= (1 - rounding) * std::abs(end);
 }
 
 Openings openings_of(const Figure& figure) {
   return {.whole_run = std::all_of(figure.runs.begin(), figure.runs.end(),
-                                   [](const FigureData& run) { return is_whole_run(run.opening, run); })};
+                                   [](const FigureData& run) { return is_whole_run(run.first_steps, run); })};
 }
 
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
@@ -113,9 +113,9 @@ std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vecto
 }
 
 void note_opening(Page& page, const FigureData& data) {
-  if (is_whole_run(data.opening, data)) return;
+  if (is_whole_run(data.first_steps, data)) return;
   const double end = std::isfinite(data.end) ? data.end : data.t.back();
-  page.notes.push_back("line: the first steps, to {/:Italic t} = " + short_value(data.opening.t.back()) + " of " +
+  page.notes.push_back("line: the first steps, to {/:Italic t} = " + short_value(data.first_steps.t.back()) + " of " +
                        short_value(end));
   page.notes.push_back("dots: the samples of the whole run");
 }

@@ -25,7 +25,7 @@ Series series_of(const Figure& figure, std::size_t run);
 /// The samples of a path: a line where chords follow it, else dots.
 Series track_of(const Curve& track, Series how);
 /// Whether the first steps that are drawn for a run are all of its steps.
-bool is_whole_run(const FigureSamples& opening, const FigureData& data);
+bool is_whole_run(const FigureSamples& first_steps, const FigureData& data);
 /// Lines over the first steps of runs, in place of lines over samples that lie too far apart.
 struct Openings {
   bool whole_run = false;  // no sample is behind them
@@ -33,14 +33,15 @@ struct Openings {
 };
 /// Those of a figure, before any is drawn.
 Openings openings_of(const Figure& figure);
-/// The paths of one panel. Where no line follows any of them, but one follows the opening of each, these are drawn over
-/// the samples as dots, and `drawn.any` becomes true: a note about the first steps holds for all paths or for none.
+/// The paths of one panel. Where no line follows any of them, but one follows the first_steps of each, these are drawn
+/// over the samples as dots, and `drawn.any` becomes true: a note about the first steps holds for all paths or for
+/// none.
 /// @param how one for each track   @param openings one for each track, empty where unknown
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
                               std::vector<Series> how, Openings& drawn);
 /// What is drawn in place of samples may reach further than they do.
 void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y);
-/// "line: the first steps, to t = 12 of 300", of figures with an opening; nothing where that is all of the run.
+/// "line: the first steps, to t = 12 of 300", of figures with an first_steps; nothing where that is all of the run.
 void note_opening(Page& page, const FigureData& data);
 /// "3 samples are joined": of lines over samples between which the motion is another one than their chords.
 std::string joined_note(std::size_t samples);

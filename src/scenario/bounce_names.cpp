@@ -9,7 +9,7 @@ std::vector<std::string> bounce_names(const Scenario& scenario) {
   const auto& walls = scenario.request.walls;
   if (!walls || !walls->hard()) return {};
   const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
-  const bool particles = static_cast<bool>(scenario.problem->particles);  // whose walls are the same for each of them
+  const bool particles = static_cast<bool>(scenario.problem->particles);  // all particles have the same walls
   std::vector<std::string> all;
   for (const WallSide<double>& wall : wall_sides<double>(*walls)) {
     const std::string& coordinate = names.q.at(wall.coordinate);

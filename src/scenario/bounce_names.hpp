@@ -1,4 +1,4 @@
-// What bounces off hard walls are called among the events of a summary and of a sweep.
+// The names of bounces off hard walls among the events of a summary and of a sweep.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace hamflow {
 
-/// For each hard wall, in the order in which a simulation counts them, the name of its bounces: "wall:q1:max"; of a gas
-/// "wall:x:max", where all particles are counted together.
+/// The name of the bounces off each hard wall, in the order in which a simulation counts them: "wall:q1:max". For a gas
+/// it is "wall:x:max", because all particles are counted together.
 std::vector<std::string> bounce_names(const Scenario& scenario);
 
 }  // namespace hamflow

@@ -23,7 +23,7 @@ std::string refused_column(const std::string& name, const std::vector<std::strin
            (begins_with_digit ? ", a letter or _ first" : "");
   }
   if (std::find(taken.begin(), taken.end(), name) == taken.end()) return {};
-  return "found the name " + name + ", which a column of every run has; allowed another";
+  return "found the name " + name + ", which every run uses for a column; allowed another name";
 }
 
 }  // namespace hamflow

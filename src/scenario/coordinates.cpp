@@ -35,10 +35,10 @@ const ProblemEntry* with_coordinates(const std::vector<const ProblemEntry*>& cha
   return found == charts.end() ? nullptr : *found;
 }
 
-/// Of an entry that lives long enough, as those of problems() do.
+/// A pointer without ownership to an entry that is never destroyed, such as those of problems().
 std::shared_ptr<const ProblemEntry> unowned(const ProblemEntry& entry) { return {std::shared_ptr<void>(), &entry}; }
 
-/// One problem that has both, with so many coordinates if there is one. @throws Error
+/// A problem that has both charts, preferably with `size` coordinates. @throws Error
 std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntry>> charts_named(
     const std::string& from, const std::string& to, std::size_t size) {
   check_coordinates(from);
@@ -51,7 +51,7 @@ std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntr
     if (found.first == nullptr || (first->dimension == size && found.first->dimension != size)) found = {first, second};
   }
   if (found.first != nullptr) return {unowned(*found.first), unowned(*found.second)};
-  throw Error("found no way from " + from + " to " + to + "; allowed: " + what_charts_there_are());
+  throw Error("cannot convert from " + from + " to " + to + "; allowed: " + what_charts_there_are());
 }
 
 }  // namespace
@@ -96,23 +96,22 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
   const ProblemEntry& problem = *inside;
   if (problem.walls) {
     throw Error("found " + problem.info.name +
-                " behind walls; allowed without: a wall on one coordinate is none on those "
-                "of another chart");
+                " with walls; allowed without walls, because a wall on a coordinate of one chart is not a wall on a "
+                "coordinate of another");
   }
   const auto charts = charted_problems().find(problem.info.name);
   const bool has_charts = charts != charted_problems().end() && !problem.info.chart_key.empty();
   if (!has_charts || with_coordinates(charts->second, to) == nullptr) {
     const std::string allowed =
         problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
-    if (charts != charted_problems().end() && problem.info.chart_key.empty()) {  // a variant of its own: in space, say
+    if (charts != charted_problems().end() && problem.info.chart_key.empty()) {  // a variant with one chart: in space
       const auto told = [](const auto& choice) { return choice.first + " = " + choice.second; };
       throw Error("found " + problem.info.name + " with " + joined(problem.info.variant, told) +
-                  ", which stands in the coordinates " + joined(problem.info.coordinates) +
-                  " alone; allowed: " + allowed);
+                  ", which has only the coordinates " + joined(problem.info.coordinates) + "; allowed: " + allowed);
     }
     if (charts == charted_problems().end() && !problem.structure) {
       throw Error(problem.info.name +
-                  " stands in one set of coordinates, with nothing to convert to; allowed: " + allowed);
+                  " has only one set of coordinates, so it cannot be converted; allowed: " + allowed);
     }
     if (!has_charts) throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
     std::vector<std::string> meant;
@@ -120,10 +119,10 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
       if (choice_of(chart->info, "coordinates") == to) meant.push_back(coordinates_of(*chart));
     }
     if (meant.empty()) throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
-    throw Error("found " + to + " coordinates of " + problem.info.name + ", of which there are several; allowed " +
+    throw Error("found " + to + " coordinates, of which " + problem.info.name + " has several; allowed " +
                 joined(meant));
   }
-  // Entries in charts under keys of their own may lack each other's choices.
+  // Two charts may have different choices. Only the choices that both have are compared.
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != problem.info.name || coordinates_of(entry) != to) continue;
     const bool same = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {
@@ -135,7 +134,7 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
   }
   std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
   variant[problem.info.chart_key] = to;
-  return find_problem(problem.info.name, variant);  // of a typed field, or none
+  return find_problem(problem.info.name, variant);  // a problem with a typed potential
 }
 
 StateConverter::StateConverter(const std::shared_ptr<const ProblemEntry>& given,
@@ -157,9 +156,10 @@ void StateConverter::require_on_constraints(const CanonicalState& state) const {
   const auto [position, velocity] = from_->residuals(complete(from_->info, parameters_), state.q, state.p);
   const std::string allowed = "; allowed at most " + shortest(most_residual_at_start);
   if (!(position <= most_residual_at_start))
-    throw Error("found a state off the constraints, |g(q)| = " + shortest(position) + allowed);
+    throw Error("found a state that violates the constraints, |g(q)| = " + shortest(position) + allowed);
   if (!(velocity <= most_residual_at_start))
-    throw Error("found a state that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) + allowed);
+    throw Error("found a state whose velocity leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) +
+                allowed);
 }
 
 CanonicalState StateConverter::operator()(const CanonicalState& state) {
@@ -181,7 +181,7 @@ CanonicalState StateConverter::operator()(const CanonicalState& state) {
   if (to_->from_reference) now = to_->from_reference(parameters_, now.q, now.p);
   if (!is_finite(now.q) || !is_finite(now.p)) {
     throw Error("found a state whose " + coordinates_of(*to_) +
-                " coordinates double cannot hold; allowed numbers whose squares and products are finite");
+                " coordinates are not finite in double; allowed numbers whose squares and products are finite");
   }
   const double turn = 2 * pi_value<double>();
   for (const std::size_t i : turning_) {

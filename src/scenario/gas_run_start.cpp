@@ -1,4 +1,4 @@
-// The particles of a gas as a run left them.
+// Reads the particles of a gas from the file of a run.
 #include <algorithm>
 #include <fstream>
 
@@ -12,13 +12,13 @@ namespace hamflow {
 
 namespace {
 
-/// The shape of a dataset; nothing where it is not there, or holds one value.
+/// The shape of a dataset; empty if it does not exist or holds a single value.
 std::vector<hsize_t> shape_of(hid_t file, const std::string& name) {
   return has_object(file, name) ? StoredData::dataset(file, name).shape() : std::vector<hsize_t>();
 }
 
-/// The numbers of a state: of a run beyond double with all digits.
-/// @param digits where they stand, if the run has some
+/// The numbers of a state, with all digits if the run has more digits than double.
+/// @param digits the dataset of the digits; empty: there is none
 std::vector<std::string> numbers_of(hid_t file, const std::string& name, const std::string& digits, hsize_t row) {
   if (!digits.empty() && has_object(file, digits)) return StoredData::dataset(file, digits).texts_of_row(row);
   std::vector<std::string> texts;
@@ -26,16 +26,16 @@ std::vector<std::string> numbers_of(hid_t file, const std::string& name, const s
   return texts;
 }
 
-/// Where a state of so many numbers stands.
+/// The place of a state in the file.
 struct StoredState {
   std::string q;
   std::string p;
   hsize_t row = 0;
   hsize_t numbers = 0;
-  hsize_t dimension = 0;  // 0: the numbers stand in one row
+  hsize_t dimension = 0;  // 0: all numbers are in one row
 };
 
-/// H5MD of a gas, else /q and /p.
+/// The H5MD datasets of a gas, else /q and /p.
 StoredState place_of(hid_t file, const std::filesystem::path& path, RunState which) {
   const std::vector<hsize_t> times = shape_of(file, "t");
   StoredState place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
@@ -44,7 +44,7 @@ StoredState place_of(hid_t file, const std::filesystem::path& path, RunState whi
     place = {"particles/start/position/value", "particles/start/momentum/value", 0, 1};
   } else if (which == RunState::last && times.size() == 1 && times[0] > 0) {
     place.row = times[0] - 1;
-    for (const char* const digits : {"digits/q", "digits/p"}) {  // of a run that was killed they may be a row behind
+    for (const char* const digits : {"digits/q", "digits/p"}) {  // after a kill they may have one row less
       const std::vector<hsize_t> rows = shape_of(file, digits);
       if (!rows.empty() && rows[0] > 0) place.row = std::min(place.row, rows[0] - 1);
     }
@@ -53,27 +53,27 @@ StoredState place_of(hid_t file, const std::filesystem::path& path, RunState whi
   if (times.size() != 1 || times[0] == 0 || states.size() < 2 || shape_of(file, place.p) != states ||
       place.row >= states[0]) {
     throw Error("found no samples /t and /particles/all, or /q, /p, in " + path.string() +
-                "; allowed the run.h5 of a run that kept some");
+                "; allowed the run.h5 of a run with samples");
   }
   for (std::size_t k = 1; k < states.size(); ++k) place.numbers *= states[k];
   if (states.size() == 3) place.dimension = states[2];
   return place;
 }
 
-/// Of an n-body run; empty where the file has none.
+/// The masses of an n-body run; empty if the file has none.
 std::vector<double> masses_of_bodies(hid_t file) {
   if (H5Aexists(file, "masses") <= 0) return {};
   return StoredData::attribute(file, "masses").numbers();
 }
 
-/// The particles of another dimension would be as many numbers, and no particles.
+/// Refuses particles of another dimension, whose numbers would be read as other particles.
 void check_dimension(hid_t file, const StoredState& place, std::size_t space, const std::string& path) {
   hsize_t dimension = place.dimension;
   if (dimension == 0) {
     const std::size_t bodies = masses_of_bodies(file).size();
     if (bodies == 0) {
-      throw Error("found in " + path + " the run of a system without bodies, whose states have " +
-                  std::to_string(place.numbers) + " numbers; allowed the run.h5 of a gas or of n-body");
+      throw Error("found in " + path + " a run without bodies, whose states have " + std::to_string(place.numbers) +
+                  " numbers; allowed the run.h5 of a gas or of n-body");
     }
     if (bodies > 1 && place.numbers % bodies == 0) dimension = place.numbers / bodies;
   }
@@ -82,11 +82,11 @@ void check_dimension(hid_t file, const StoredState& place, std::size_t space, co
                 (dimension != 0 ? std::to_string(dimension) + " dimensions"
                                 : "states of " + std::to_string(place.numbers) + " numbers") +
                 " in " + path + "; allowed problem.dimension = " + std::to_string(space) +
-                (dimension == 2 || dimension == 3 ? ", or that of the file" : ""));
+                (dimension == 2 || dimension == 3 ? ", or the dimension of the file" : ""));
   }
 }
 
-/// One for each particle, or one for all where they are equal; nothing where the file has none.
+/// One mass for each particle, or one for all if they are equal; empty if the file has none.
 std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
   const char* const of_gas = "particles/all/mass/value";
   std::vector<double> masses =
@@ -105,7 +105,7 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
   silence_hdf5();
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none) || !std::ifstream(file).good()) {
-    throw Error("found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
+    throw Error("cannot read the file " + file.string() + "; allowed a run.h5, or a CSV");
   }
   try {
     const Hdf5Handle h5 = open_to_read(file);
@@ -121,10 +121,10 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
     start.masses = masses_in(h5, place.numbers / space);
     return start;
   } catch (const FileError& error) {
-    throw Error("found " + file.string() + ", which is damaged or no HDF5 file (" + error.what() +
-                "); allowed a whole run.h5, or a CSV");
+    throw Error("found " + file.string() + ", which is damaged or not an HDF5 file (" + error.what() +
+                "); allowed a complete run.h5, or a CSV");
   } catch (const std::bad_alloc&) {
-    throw Error("found " + file.string() + ", which claims a size that cannot be; allowed a whole run.h5, or a CSV");
+    throw Error("found " + file.string() + ", which states an impossible size; allowed a complete run.h5, or a CSV");
   }
 }
 

@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// Calls put(k, i) for the k-th coordinate of each particle, i its place on that side from 0.
+/// Calls put(i) for each coordinate of each particle; i, from 0, is the place of the particle along that coordinate.
 template <class Put>
 void each_place(std::int64_t n, std::size_t space, const Put& put) {
   std::int64_t all = 1;
@@ -61,7 +61,7 @@ GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed, c
   const std::string intervals = std::to_string(n - 1);
   const std::string halves = std::to_string(2 * n);
   std::size_t k = 0;
-  // One quotient each: as symmetric about 0 as numbers are.
+  // Each number is one quotient, so that the positions are exactly symmetric about 0.
   each_place(n, space, [&](std::int64_t i) {
     const std::string place = std::to_string(2 * i - (n - 1));
     start.q.push_back(edges.empty() ? place + "/" + intervals : place + "*(" + edges[k] + ")/" + halves);
@@ -87,12 +87,12 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
     throw Error("found the folder " + file.string() + "; allowed a CSV of particles, or the run.h5 of a run");
   }
   std::ifstream in(file);
-  if (!in) throw Error("found no file " + file.string() + " that can be read; allowed a CSV of particles");
+  if (!in) throw Error("cannot read the file " + file.string() + "; allowed a CSV of particles");
   std::vector<std::string> names;
   for (const char* const p : {"", "p_"}) {
     for (std::size_t k = 0; k < space; ++k) names.push_back(p + std::string(1, "xyz"[k]));
   }
-  const std::string allowed = "; allowed a first row with " + joined(names) + ", and mass if there is one for each";
+  const std::string allowed = "; allowed a first row with the names " + joined(names) + " and optionally mass";
   const auto at = [&](std::size_t line, std::size_t column) {
     return " in line " + std::to_string(line) + ", column " + std::to_string(column) + " of " + file.string();
   };
@@ -111,7 +111,7 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
     known.emplace_back("mass");
     const bool of_space = cell->text == "z" || cell->text == "p_z";
     const std::string place = found + at(1, cell->column);
-    if (of_space) throw Error(place + allowed + "; z and p_z with problem." + GasKeys::dimension + " = 3");
+    if (of_space) throw Error(place + allowed + "; z and p_z need problem." + GasKeys::dimension + " = 3");
     throw Error(place + suggestion(cell->text, known) + allowed);
   }
   std::vector<std::size_t> places;
@@ -125,7 +125,7 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
   for (std::size_t row = 2; std::getline(in, line); ++row) {
     const std::vector<Cell> cells = cells_of(line);
     if (cells.size() == 1 && cells[0].text.empty()) continue;
-    if (cells.size() != head.size()) {  // at the first too many, or where one is missing
+    if (cells.size() != head.size()) {  // points at the first surplus cell, or at the end of the line
       const bool many = cells.size() > head.size();
       throw Error("found " + std::to_string(cells.size()) + " numbers" +
                   at(row, many ? cells[head.size()].column : line.size() + 1) + "; allowed " +

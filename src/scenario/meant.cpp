@@ -15,7 +15,8 @@ bool has(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// What decides between problems of one name: the word, and the name with it, as one would say it.
+/// The words that choose between problems of one name, each with a text such as `central-force with potential =
+/// "kepler"`.
 const std::map<std::string, std::string>& problems_by_choice() {
   static const std::map<std::string, std::string> all = [] {
     std::map<std::string, std::string> map;
@@ -42,7 +43,7 @@ std::string suggested_problem(const std::string& name) {
 }
 
 std::string removed_key(const std::string& path) {
-  if (path == "run.kernel") return "delete it: every run has the bits that kernel = \"exact\" gave";
+  if (path == "run.kernel") return "delete this key; every run now behaves as with kernel = \"exact\"";
   return {};
 }
 

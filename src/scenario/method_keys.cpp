@@ -21,7 +21,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 const OptionInfo& method_name_key() {
   static const OptionInfo key = [] {
     OptionInfo name{.name = "name",
-                    .meaning = "of the method, with or without options behind it, as in \"cg(1,5)\"",
+                    .meaning = "name of the method, optionally followed by options, as in \"cg(1,5)\"",
                     .type = OptionType::word,
                     .required = true};
     for (const MethodEntry& entry : methods()) name.words.push_back(entry.name);
@@ -63,7 +63,7 @@ bool same_option(const OptionInfo& a, const OptionInfo& b) {
 }
 
 namespace {
-/// The monitor of steps of varying length, where --set asks for equal ones, which follow none.
+/// Whether [method] has a monitor for steps of varying length, but --set asks for equal steps, which do not use it.
 bool has_replaced_monitor(const toml::table& method, const Texts& options_of_set_name) {
   if (!method.contains(monitor_option)) return false;
   const auto in_name = options_of_set_name.find(step_control_option);
@@ -83,7 +83,7 @@ std::vector<std::string> replaced_method_keys(const toml::table& method, const s
   try {
     spec = parse_method(name->value_or(std::string()));
   } catch (const Error&) {
-    return {};  // the reader complains about it
+    return {};  // the reader of scenarios reports this error
   }
   const std::vector<OptionInfo>& own = find_method(spec.name).family->options;
   const bool is_known = contains(method_name_key().words, file_method);
@@ -106,25 +106,25 @@ std::vector<std::string> replaced_method_keys(const toml::table& method, const s
 }
 
 namespace {
-constexpr const char* in_its_name = "its name says it";
-constexpr const char* in_its_rows = "its rows differ in it, unless its name says one";
+constexpr const char* in_its_name = "its name contains it";
+constexpr const char* in_its_rows = "it differs between its rows, unless its name contains it";
 
-/// Why so many methods do not use a key.
+/// The reason why one or several methods do not use a key.
 std::string why_unused(const std::string& why, std::size_t methods, bool one_row_each) {
   const bool several = methods > 1;
-  if (why == in_its_name) return several ? "their names say it" : why;
+  if (why == in_its_name) return several ? "their names contain it" : why;
   if (why != in_its_rows) return why;
-  const std::string unless = several ? ", unless their names say one" : ", unless its name says one";
+  const std::string unless = several ? ", unless their names contain it" : ", unless its name contains it";
   if (one_row_each) return (several ? "their rows have the default" : "its row has the default") + unless;
-  return (several ? "their rows differ in it" : "its rows differ in it") + unless;
+  return (several ? "it differs between their rows" : "it differs between its rows") + unless;
 }
 }  // namespace
 
 struct SharedMethodKeys::Impl {
   std::optional<Document> document;
   std::map<std::string, Setting> settings;
-  std::vector<std::pair<std::string, std::string>> unused{};  // a key and why, in the order in which they were met
-  std::map<std::pair<std::string, std::string>, std::vector<std::string>> methods{};  // without it
+  std::vector<std::pair<std::string, std::string>> unused{};  // a key and the reason, in order of occurrence
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> methods{};  // that do not use the key
 };
 
 SharedMethodKeys::SharedMethodKeys(const std::string& text, const std::vector<std::string>& sets)
@@ -148,10 +148,10 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
     if (own.options.contains(key)) return in_its_name;
     const OptionInfo* const option = find_option(options, key);
     if (option == nullptr) return "no such option";
-    if (key == diagnostics_option) return "a comparison shows nothing of it, and it takes time";
+    if (key == diagnostics_option) return "a comparison does not show it, and it takes time";
     if (key == tolerance_option && describe(own).own_substeps) return in_its_rows;
     if (!contains(replaced, key)) return "";
-    return key == monitor_option ? "steps of equal length follow no monitor" : "it means something else there";
+    return key == monitor_option ? "steps of equal length have no monitor" : "it has another meaning there";
   };
   for (const auto& [path, setting] : impl_->settings) {
     const std::string head = "method.";
@@ -181,7 +181,7 @@ std::vector<std::string> SharedMethodKeys::unknown() const {
 }
 
 std::vector<std::string> SharedMethodKeys::notes(bool one_row_each) const {
-  std::vector<std::pair<std::string, std::string>> parts;  // keys, and by whom and why not
+  std::vector<std::pair<std::string, std::string>> parts;  // keys, and the methods with the reason
   for (const auto& entry : impl_->unused) {
     const auto& [key, why] = entry;
     const std::vector<std::string>& methods = impl_->methods.at(entry);

@@ -1,4 +1,4 @@
-// The keys of [method], as the families of methods declare them.
+// The keys of [method], which the families of methods declare.
 #pragma once
 
 #include <toml++/toml.h>
@@ -15,34 +15,34 @@ namespace hamflow {
 const OptionInfo& method_name_key();
 /// The names of the options of all families, each once.
 const std::vector<std::string>& all_method_keys();
-/// Whether the text is the name of a method with something in parentheses behind it.
+/// Whether the text is the name of a method followed by a parenthesis.
 bool names_method_with_options(const std::string& text);
-/// The name of the method in a document, without options; empty where there is none.
+/// The name of the method in a document, without options; empty if there is none.
 std::string method_named_in(const toml::table& root);
-/// Whether two families mean the same by an option, so that a value for the one is one for the other: the tolerance of
-/// a series is none of a Newton iteration.
+/// Whether an option has the same meaning in two families, so that a value can be transferred. The tolerance of taylor
+/// and the tolerance of Newton's iteration, for example, have different meanings.
 bool same_option(const OptionInfo& a, const OptionInfo& b);
-/// The keys of [method] in the file that do not apply because a method was set from outside (--set, --vary): options
-/// that it does not have or means otherwise than the file's own method, and options that its name carries.
-/// @param file_method the name of the file's own, method_named_in() before anything was set
+/// The keys of [method] in the file that do not apply because --set or --vary gives another method: options that it
+/// does not have, that have another meaning than for the method of the file, or that its name contains.
+/// @param file_method the method of the file: method_named_in() before any key was set
 std::vector<std::string> replaced_method_keys(const toml::table& method, const std::string& file_method);
-/// [method], with each --set carried out, for the methods of a comparison, which stand on the command line: what `run`
-/// would do with the name set to each of them. Keys of --set that one of several methods does not have are not its own.
+/// The keys of [method], with every --set applied, for the methods of a comparison. Each method gets the options that
+/// `run` would use if method.name were set to it. A key of --set that a method does not have is not used for it.
 class SharedMethodKeys {
  public:
-  /// @param text the scenario's
+  /// @param text of the scenario
   SharedMethodKeys(const std::string& text, const std::vector<std::string>& sets);
   ~SharedMethodKeys();
   SharedMethodKeys(const SharedMethodKeys&) = delete;
   SharedMethodKeys& operator=(const SharedMethodKeys&) = delete;
 
-  /// Takes the options that apply to a method and that it does not carry itself.
-  /// @param spelled the method as it was given, with its options
+  /// Adds to a method the options of [method] that apply to it and that it does not have already.
+  /// @param spelled the method as it was typed, with its options
   void add_to(MethodSpec& method, const std::string& spelled);
-  /// Keys that no method has: misspelt ones, with which every method is refused.
+  /// Keys that no method has, such as misspelt ones. With such a key every method is refused.
   std::vector<std::string> unknown() const;
-  /// The keys that some method was read without, and why, a sentence each.
-  /// @param one_row_each of a comparison with one dt
+  /// A sentence for each key that some method does not use, with the reason.
+  /// @param one_row_each the comparison has one dt
   std::vector<std::string> notes(bool one_row_each) const;
 
  private:
@@ -50,7 +50,7 @@ class SharedMethodKeys {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Removes them from the [method] of a document.
+/// Removes the replaced_method_keys() from [method] of a document.
 void drop_replaced_method_keys(toml::table& root, const std::string& file_method);
 
 }  // namespace hamflow

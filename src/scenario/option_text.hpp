@@ -1,4 +1,4 @@
-// An option explained for people: beside a key in `new`, in a row of `show`, in docs/reference.md.
+// Explanations of options, for `new`, `show` and docs/reference.md.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace hamflow {
 
-/// "step length; a number other than 0; in units of time": meaning, allowed values, condition and unit.
+/// Meaning, allowed values, condition and unit: "step size; a number other than 0; in units of time".
 std::string explained(const OptionInfo& option);
-/// The same with the default behind it: "; default 15", "; by default its rounding level", "; required".
+/// The same, followed by the default: "; default 15", "; by default its rounding level", "; required".
 std::string explained_with_default(const OptionInfo& option);
-/// A value to begin with, as TOML: the example, else the default, else 1 or a list of it.
+/// An example value as TOML: the declared example, else the default, else 1 or a list with it.
 std::string example_text(const OptionInfo& option);
 
 }  // namespace hamflow

@@ -1,13 +1,13 @@
-// The scenario of a run that goes on.
+// Reads the scenario of a run that is resumed.
 #pragma once
 
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
 
-/// As read_scenario(), but a start that stands in a file is not missed where that file is gone: the run's own file
-/// keeps it, which is noted.
-/// @param folder where the run is; empty: where the scenario says
+/// Like read_scenario(). If the file with the initial particles no longer exists, the start is read from the file of
+/// the run, with a note.
+/// @param folder of the run; empty: the folder that the scenario gives
 Reading read_resumed_scenario(const std::filesystem::path& file, const std::vector<std::string>& sets,
                               const std::string& folder);
 

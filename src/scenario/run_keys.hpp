@@ -1,5 +1,5 @@
-// The keys of [run] and [output], each declared once. The reader, `new`, `show`, --resume and docs/reference.md are
-// made from these declarations; code that has to name a key takes its name from here.
+// Declares the keys of [run] and [output], each once. The reader, `new`, `show`, --resume and docs/reference.md use
+// these declarations. Code that has to name a key takes the name from here.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // t = n h ne
 struct LatticeKeys {
   OptionInfo position, momentum;
 };
-/// The keys of `run.section`. The words of `coordinate` are those of the problem.
+/// The keys of `run.section`. The problem defines the allowed words of `coordinate`.
 struct SectionKeys {
   OptionInfo coordinate, expression, value, direction;
 };
-/// Those of each entry of `run.events`.
+/// The keys of each entry of `run.events`.
 struct EventKeys {
   OptionInfo name, expression, direction, action;
 };
@@ -48,10 +48,10 @@ struct DeclaredTable {
 /// [run] and [output].
 const std::vector<DeclaredTable>& declared_tables();
 const DeclaredTable& declared_table(const std::string& name);
-/// The dotted path of a key of [run], or of [output], as --set has it.
+/// The dotted path of a key of [run] or [output], as in --set.
 inline std::string run_path(const OptionInfo& key) { return std::string(run_table) + "." + key.name; }
 inline std::string output_path(const OptionInfo& key) { return std::string(output_table) + "." + key.name; }
-/// Whether --resume takes another value of a key, e.g. "run.steps".
+/// Whether a key may have another value with --resume, e.g. "run.steps".
 bool is_free_on_resume(const std::string& path);
 
 }  // namespace hamflow

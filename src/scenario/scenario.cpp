@@ -33,7 +33,7 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
   }
 }
 
-/// What to do about an error of the parser whose text does not say it.
+/// Advice for errors of the TOML parser whose messages have none.
 std::string hint_to(std::string_view description) {
   const auto says = [&](std::string_view part) { return description.find(part) != std::string_view::npos; };
   if (says("could not determine value type")) {
@@ -84,7 +84,7 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
   } catch (const toml::parse_error& error) {
     complaints.push_back({name, static_cast<int>(error.source().begin.line),
                           static_cast<int>(error.source().begin.column), "syntax",
-                          "found no valid TOML: " + std::string(error.description()) + hint_to(error.description())});
+                          "not valid TOML: " + std::string(error.description()) + hint_to(error.description())});
     return std::nullopt;
   }
   document.file_method = method_named_in(root);
@@ -108,10 +108,10 @@ Reading read_text(const std::string& text, const std::string& name, const std::v
   if (!document) return reading;
   document->resumed_in = resumed_in;
   Scenario scenario = ScenarioReader(*document, name, reading.complaints).read();
-  drop_replaced_method_keys(document->root, document->file_method);  // they were noted
+  drop_replaced_method_keys(document->root, document->file_method);  // the reader has noted them
   scenario.text = effective_text(text, sets, document->root);
   scenario.settings = settings_of(document->root);
-  // In the order of the file, so that a reader can walk through it.
+  // Sorted in the order of the file.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });
   if (reading.complaints.empty()) reading.scenario = std::move(scenario);

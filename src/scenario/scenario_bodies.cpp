@@ -1,4 +1,4 @@
-// [problem]: two bodies in space, whose relative motion in their plane is the problem.
+// [problem].bodies: two bodies in space. The problem is their relative motion in its plane.
 #include <cmath>
 
 #include "scenario_reader.hpp"
@@ -13,9 +13,9 @@ struct BodyTexts {
   std::string mass, position[3], velocity[3];
 };
 
-/// The planar start of TwoBodies, as expressions in the numbers given: beyond double their digits count. With r and v
-/// the relative position and velocity it is (|r|, 0), mu (r.v, |r x v|)/|r|; in polar coordinates the second momentum
-/// is the angular one, mu |r x v|.   [Gross1999, (2.1)-(2.20)]
+/// The planar start of TwoBodies as expressions of the given numbers, which have more digits than double in some
+/// arithmetics. With the relative position r and velocity v it is (|r|, 0), mu (r.v, |r x v|)/|r|; in polar coordinates
+/// the second momentum is the angular momentum mu |r x v|.   [Gross1999, (2.1)-(2.20)]
 StartSpec in_any_digits(const BodyTexts& first, const BodyTexts& second, const std::string& mu, bool polar) {
   std::string r[3], v[3], rr, rv, cc;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -38,14 +38,15 @@ StartSpec in_any_digits(const BodyTexts& first, const BodyTexts& second, const s
 
 }  // namespace
 
-/// Two bodies in space, reduced to a planar state.
+/// Reads two bodies in space and reduces them to a planar state.
 void ScenarioReader::read_bodies(TomlTable& table) {
   if (!table.has_any("bodies")) {
     table.know("bodies");
     return;
   }
   for (const char* other : {"mass", "orbit", "initial"}) {
-    if (table.has(other)) table.complain(other, std::string("found ") + other + " beside bodies; allowed one of them");
+    if (table.has(other))
+      table.complain(other, std::string("found ") + other + " together with bodies; allowed one of them");
   }
   auto tables = table.tables("bodies", 2);
   if (!tables) return;
@@ -68,7 +69,7 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   }
   if (complaints_.size() != before) return;
   if (bodies[0].position == bodies[1].position) {
-    table.complain("bodies", "found both bodies at one point; allowed different positions");
+    table.complain("bodies", "found both bodies at the same point; allowed different positions");
     return;
   }
   scenario_.bodies = TwoBodies(bodies[0], bodies[1]);

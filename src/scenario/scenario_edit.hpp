@@ -1,4 +1,4 @@
-// A scenario's text with some of its keys changed.
+// Changes some keys in the text of a scenario.
 #pragma once
 
 #include <optional>
@@ -7,16 +7,16 @@
 
 namespace hamflow {
 
-/// A dotted path gets a TOML value (text that is none becomes a string); without value the key goes.
+/// Sets a dotted path to a TOML value (a text that is not TOML becomes a string); without a value the key is removed.
 struct ScenarioEdit {
   std::string path;
   std::optional<std::string> value;
 };
 
-/// The scenario written anew with the edits applied. Comments are lost.
+/// The text of the scenario with the edits applied, without its comments.
 /// @param text a scenario that can be read
 std::string edited_scenario(const std::string& text, const std::vector<ScenarioEdit>& edits);
-/// "[1, 2.5]", as few digits as read back the same.
+/// "[1, 2.5]", with the fewest digits that read back exactly.
 std::string toml_list(const std::vector<double>& numbers);
 
 }  // namespace hamflow

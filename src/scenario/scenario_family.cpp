@@ -29,7 +29,7 @@ ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name,
   impl_->name = name;
   if (auto document = parsed_document(text, name, sets, impl_->complaints)) impl_->document = std::move(*document);
   std::vector<Complaint> the_same;
-  if (auto common = parsed_document(text, name, sets, the_same)) {  // a copy would have lost the order of its keys
+  if (auto common = parsed_document(text, name, sets, the_same)) {  // parsed again: a copy loses the order of keys
     drop_replaced_method_keys(common->root, common->file_method);
     impl_->settings = settings_of(common->root);
     impl_->text = effective_text(text, sets, common->root);
@@ -58,7 +58,7 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
     if (!wrong.empty()) reading.complaints.push_back({impl_->name, 0, 0, paths[i], wrong});
   }
   if (!reading.complaints.empty()) return reading;
-  if (!std::exchange(impl_->is_read, true)) drop_excluded(impl_->document.root);  // the same keys for every member
+  if (!std::exchange(impl_->is_read, true)) drop_excluded(impl_->document.root);  // all members drop the same keys
   ScenarioReader reader(impl_->document, impl_->name, reading.complaints);
   Scenario scenario = reader.read();
   reading.no_start = reader.no_start();

@@ -1,5 +1,5 @@
-// [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The texts are checked
-// and become an entry of the catalogue; everything after that is as for any problem.
+// [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The formulas are
+// checked and become an entry of the catalogue, which is then used like any other problem.
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::string>> named_texts(TomlTable table) {
   return all;
 }
 
-/// Whether two problems differ in nothing but values of parameters that the choices of the first do not keep.
+/// Whether two problems differ only in values of parameters that the choices of the first do not contain.
 bool have_same_choices(const FormulaTexts& one, const Choices& choices, const FormulaTexts& other) {
   const auto same_parameter = [&](const std::string& name, const std::string& text) {
     const auto there = other.parameters.find(name);
@@ -43,7 +43,7 @@ bool have_same_choices(const FormulaTexts& one, const Choices& choices, const Fo
                      [&](const auto& parameter) { return same_parameter(parameter.first, parameter.second); });
 }
 
-/// The members of a sweep are read one after the other: what was found for the one before holds for the next.
+/// The choices of a typed problem. The members of a sweep are read one after the other, so the last result is kept.
 const Choices& remembered_choices(const FormulaTexts& texts) {
   thread_local FormulaTexts last;
   thread_local Choices found;
@@ -60,7 +60,7 @@ bool has_typed_choice(TomlTable& table, const ProblemInfo& info) {
   return !info.typed_choice.empty() && table.plain_string(info.typed_choice) == FormulaKeys::problem;
 }
 
-/// Parameters with names of the user.
+/// Reads parameters whose names the user has chosen.
 Texts ScenarioReader::read_typed_parameters(TomlTable& table) {
   Texts all;
   if (!table.has(FormulaKeys::parameters)) {
@@ -76,7 +76,7 @@ Texts ScenarioReader::read_typed_parameters(TomlTable& table) {
 }
 
 namespace {
-/// All texts of a part of the document, one after the other.
+/// Appends all texts of a part of the document.
 void collect_texts(const toml::node& node, std::string& all) {
   if (const auto* const text = node.as_string()) all += " " + text->get();
   if (const auto* const table = node.as_table()) {
@@ -100,7 +100,7 @@ std::set<std::string> words_of(const std::string& text) {
 }
 }  // namespace
 
-/// A name with a mistake would change nothing, and its study would be wrong.
+/// Refuses parameters that no formula uses, since a misspelt name would otherwise have no effect without notice.
 void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts) {
   std::string all = texts.hamiltonian + " " + texts.kinetic + " " + texts.potential;
   for (const std::string& coordinate : texts.coordinates) all += " " + coordinate;
@@ -119,23 +119,24 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
     const std::vector<std::string> candidates(words.begin(), words.end());
     table.complain_in(
         std::string(FormulaKeys::parameters) + "." + name,
-        "found a parameter that stands in no formula" + suggestion(name, used.empty() ? candidates : used) +
-            "; allowed those that H, an invariant, a constraint, a section, an event or an observable names");
+        "found a parameter that no formula uses" + suggestion(name, used.empty() ? candidates : used) +
+            "; allowed parameters that H, an invariant, a constraint, a section, an event or an observable uses");
   }
 }
 
-/// dq/dt = dH/dp is 0 where H does not contain p. Momenta of an array, p_x[i], are not looked at.
+/// Notes coordinates that do not move: dq/dt = dH/dp is 0 if H does not contain p. Arrays such as p_x[i] are not
+/// checked.
 void ScenarioReader::note_standing_still(const FormulaTexts& texts) {
   const StateNames names = state_names(*scenario_.problem, texts.parameters, scenario_.problem->dimension);
   const std::set<std::string> words = words_of(texts.hamiltonian + " " + texts.kinetic);
   if (!texts.constraints.empty()) return;
   for (std::size_t i = 0; i < names.p.size(); ++i) {
     if (names.p[i].find('[') != std::string::npos || words.contains(names.p[i])) continue;
-    scenario_.notes.push_back("H does not contain " + names.p[i] + ": " + names.q[i] + " stands still");
+    scenario_.notes.push_back("H does not contain " + names.p[i] + ", so " + names.q[i] + " does not move");
   }
 }
 
-/// Each is a column of every run, beside those that there are without it.
+/// Checks the names of invariants, which become columns of the run.
 void ScenarioReader::check_invariant_names(TomlTable& table, const FormulaTexts& texts) {
   if (texts.invariants.empty()) return;
   TomlTable names = table.table(FormulaKeys::invariants);
@@ -146,7 +147,7 @@ void ScenarioReader::check_invariant_names(TomlTable& table, const FormulaTexts&
   }
 }
 
-/// The keys of `formula`; nothing where they are incomplete, which is complained about.
+/// Reads the keys of `formula`. If they are incomplete, it complains and returns nullopt.
 std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table) {
   using Keys = FormulaKeys;
   const std::size_t before = complaints_.size();
@@ -170,7 +171,7 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
       std::string("either ") + Keys::hamiltonian + ", or " + Keys::kinetic + " and " + Keys::potential;
   if (whole && parts) {
     const char* const part = table.has(Keys::kinetic) ? Keys::kinetic : Keys::potential;
-    table.complain(part, std::string("found ") + part + " beside " + Keys::hamiltonian + "; allowed " + allowed);
+    table.complain(part, std::string("found ") + part + " together with " + Keys::hamiltonian + "; allowed " + allowed);
   } else if (!whole && table.has(Keys::kinetic) != table.has(Keys::potential)) {
     const char* const other = table.has(Keys::kinetic) ? Keys::potential : Keys::kinetic;
     table.missing(other, allowed);
@@ -193,7 +194,7 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
 }
 
 namespace {
-/// The formula that a key names, "kinetic", "invariants.L"; null where it names none.
+/// The formula of a key such as "kinetic" or "invariants.L"; null if the key has none.
 std::string* formula_at(FormulaTexts& texts, const std::string& key) {
   using Keys = FormulaKeys;
   if (key == Keys::hamiltonian) return &texts.hamiltonian;
@@ -206,7 +207,7 @@ std::string* formula_at(FormulaTexts& texts, const std::string& key) {
 }
 }  // namespace
 
-/// In the place of a formula that is wrong stands one that is not, until no other is wrong.
+/// Complains about further wrong formulas: replaces each wrong formula by "0" and checks again, until none is wrong.
 void ScenarioReader::tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong) {
   const std::string right = "0";
   for (;;) {
@@ -224,7 +225,7 @@ void ScenarioReader::tell_other_formulas(TomlTable& table, FormulaTexts texts, s
   }
 }
 
-/// The entry of what was typed.
+/// Makes the catalogue entry of a typed problem.
 void ScenarioReader::read_typed_problem(TomlTable& table, const ProblemEntry& listed) {
   Request& request = scenario_.request;
   const std::string& name = listed.info.name;

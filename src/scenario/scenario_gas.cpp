@@ -1,4 +1,4 @@
-// [problem] with the gas: words that choose its entry of the catalogue, its parameters, and where the particles begin.
+// [problem] with the gas: the words that choose its entry of the catalogue, its parameters, and the initial particles.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -21,8 +21,8 @@ namespace hamflow {
 
 namespace {
 
-/// A key that the gas has in another table is told its place.
-/// @param own the table's path, with a dot behind it
+/// Complains about keys that the gas has in another table, and names the right place.
+/// @param own the path of the table, with a final dot
 void tell_places(TomlTable& table, const std::string& own) {
   const GasOptions& o = gas_options();
   const WallKeys& walls = wall_keys();
@@ -45,7 +45,7 @@ void tell_places(TomlTable& table, const std::string& own) {
   }
 }
 
-/// { kind, radius, exponent } or { kind, size }; without it a circle.
+/// Reads { kind, radius, exponent } or { kind, size }; the default is a circle.
 void read_container(TomlTable& table, Choices& choices, Texts& parameters) {
   const GasOptions& o = gas_options();
   choices[GasKeys::container] = ContainerNames::circle;
@@ -73,15 +73,15 @@ void read_container(TomlTable& table, Choices& choices, Texts& parameters) {
   }
   if (const std::string& walls = wall_keys().walls.name; kind == ContainerNames::box && container.has(walls)) {
     container.complain(walls, container.found(walls) +
-                                  "; allowed nothing: the walls of a box are at +-size/2, and problem." +
-                                  wall_keys().wall_rule.name + " says what happens at them");
+                                  "; not allowed, because the walls of a box are at +-size/2; problem." +
+                                  wall_keys().wall_rule.name + " defines what happens there");
     container.know(walls);
   }
   tell_places(container, "problem.container.");
   container.finish();
 }
 
-/// A number, or { radius, kind, inner, skin }.
+/// Reads a number, or { radius, kind, inner, skin }.
 void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
   const GasOptions& o = gas_options();
   choices[GasKeys::cutoff_kind] = CutoffNames::none;
@@ -102,7 +102,7 @@ void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
   const bool has_inner = cutoff.has(o.of_cutoff.inner.name);
   if (const auto inner = cutoff.text(o.of_cutoff.inner); inner && smooth) parameters[GasKeys::inner] = *inner;
   if (smooth && !has_inner) {
-    cutoff.missing(o.of_cutoff.inner.name, "a number below radius, from which on phi fades");
+    cutoff.missing(o.of_cutoff.inner.name, "a number below radius, from which phi is reduced smoothly to 0");
   } else if (!smooth && has_inner) {
     cutoff.complain(o.of_cutoff.inner.name,
                     cutoff.found(o.of_cutoff.inner.name) + "; allowed " + o.of_cutoff.inner.condition);
@@ -112,7 +112,7 @@ void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
   cutoff.finish();
 }
 
-/// The number of coordinates that `initial` gives; 0: none, or it is not readable, which is complained about with it.
+/// The number of coordinates in `initial`; 0 if it is missing or wrong, which is complained about elsewhere.
 std::size_t size_of_initial(const TomlTable& table) {
   const toml::node* const initial = table.node().get("initial");
   const toml::table* const state = initial != nullptr ? initial->as_table() : nullptr;
@@ -120,13 +120,13 @@ std::size_t size_of_initial(const TomlTable& table) {
   return q != nullptr && q->is_array() ? q->as_array()->size() : 0;
 }
 
-/// The dimension, 2 where it is not given or wrong.
+/// The dimension; 2 if it is missing or wrong.
 std::size_t space_of(const Texts& parameters) {
   const auto given = parameters.find(GasKeys::dimension);
   return given != parameters.end() && number_value(given->second) == 3 ? 3 : 2;
 }
 
-/// The edges of a box that a lattice can fill; none where the container is another one, or the box is wrong.
+/// The edges of a box that a lattice can fill; empty if the container is not a box, or the box is wrong.
 std::vector<std::string> edges_of_box(const Choices& choices, const Texts& parameters, std::size_t space) {
   const auto container = choices.find(GasKeys::container);
   const auto size = parameters.find(GasKeys::size);
@@ -172,7 +172,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
   GasStart start = read_gas_start(table, n, space_of(parameters), parameters);
   if (!start.masses.empty()) {
     if (table.has(o.masses.name)) {
-      table.complain(o.masses.name, table.found(o.masses.name) + " beside masses in the file; allowed one of them");
+      table.complain(o.masses.name, table.found(o.masses.name) + " and masses in the file; allowed one of them");
     }
     parameters[GasKeys::masses] = "[" + joined(start.masses) + "]";
   }
@@ -209,7 +209,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
 }
 
 namespace {
-/// Where a formula names the time, from 1; 0 where it does not.
+/// The column, from 1, at which a formula contains the time t; 0 if it does not.
 std::size_t column_of_time(const std::string& formula) {
   const auto in_name = [&](std::size_t i) {
     return i < formula.size() && (std::isalnum(static_cast<unsigned char>(formula[i])) != 0 || formula[i] == '_');
@@ -221,7 +221,7 @@ std::size_t column_of_time(const std::string& formula) {
 }
 }  // namespace
 
-/// phi = "..." and its parameters.
+/// Reads phi = "..." and its parameters.
 void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
   const GasOptions& o = gas_options();
   if (!table.has(o.phi.name)) table.missing(o.phi.name, "phi of r and the parameters, such as \"r^-9 - r^-6\"");
@@ -234,7 +234,7 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
       if (taken(option) || name == GasKeys::radius || name == GasKeys::exponent || name == GasKeys::size ||
           name == GasKeys::inner || name == GasKeys::skin) {
         table.complain_in(std::string(GasKeys::parameters) + "." + name,
-                          "found the name " + name + ", which the gas has itself; allowed another name");
+                          "found the name " + name + ", which is a key of the gas; allowed another name");
         return;
       }
     }
@@ -243,7 +243,7 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
     if (const std::size_t column = column_of_time(*phi); column > 0 && !typed.contains("t")) {
       throw FormulaError(FormulaKeys::central_potential,
                          "found \"" + *phi + "\", column " + std::to_string(column) +
-                             ": the time t; allowed r, parameters, numbers: a pair law is the same at all times");
+                             ": the time t; allowed r, parameters and numbers, because a pair law cannot depend on t");
     }
     const Choices field = central_formula_choices(*phi, typed, "cartesian", {.owner = "a pair law", .has_time = false});
     scenario_.request.variant[GasKeys::phi] = *phi;
@@ -272,7 +272,7 @@ std::uint64_t hash_of(const GasStart& start) {
 }
 }  // namespace
 
-/// `initial` overrides whatever else says where the particles begin.
+/// Notes the keys of the start that are not used because `initial` overrides them.
 void ScenarioReader::note_unused_start(const TomlTable& table) {
   const GasOptions& o = gas_options();
   const toml::node* const scale = table.node().get(o.scale.name);
@@ -284,11 +284,11 @@ void ScenarioReader::note_unused_start(const TomlTable& table) {
   if (scaled && table.has(o.particles_per_side.name)) unused.push_back(table.full(o.particles_per_side.name));
   if (unused.empty()) return;
   scenario_.notes.push_back(joined(unused) + (unused.size() == 1 ? " is" : " are") +
-                            " not used: initial says where the particles begin");
+                            " not used, because initial gives the start of the particles");
 }
 
-/// The run.h5 of a run that goes on, which keeps the start; empty where none does, or where its numbers in double would
-/// not be all digits of the start.
+/// The run.h5 of a resumed run, which contains the start. Empty if there is none, or if the start has more digits than
+/// double.
 std::filesystem::path ScenarioReader::resumed_run() {
   if (!resumed_in_) return {};
   const std::string arithmetic =
@@ -300,7 +300,7 @@ std::filesystem::path ScenarioReader::resumed_run() {
   return is_in_run_file(folder / "run.h5") ? folder / "run.h5" : std::filesystem::path();
 }
 
-/// A run.h5 has masses always: where the scenario gives them, these are the same.
+/// Removes the masses from a start of a run.h5 if the scenario gives them. A run.h5 always has masses, and these agree.
 GasStart ScenarioReader::without_own_masses(const TomlTable& table, GasStart start) {
   if (table.has(gas_options().masses.name)) start.masses.clear();
   return start;
@@ -316,8 +316,8 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
     return {};
   }
   if (seed && kind != GasStarts::lattice) {
-    scenario_.notes.push_back(table.full(o.seed.name) + " is not used: no momenta are drawn with " + o.start.name +
-                              " = \"" + kind + "\"");
+    scenario_.notes.push_back(table.full(o.seed.name) + " is not used, because " + o.start.name + " = \"" + kind +
+                              "\" has no random momenta");
   }
   if (kind == GasStarts::file) {
     if (!file) {
@@ -325,7 +325,7 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
       return {};
     }
     try {
-      // A scenario that stands in a run.h5 began where that run did: its file need not be there any more.
+      // A scenario stored in a run.h5 has the start of that run. Its CSV file may no longer exist.
       if (is_in_run_file(scenario_.file)) {
         GasStart began = without_own_masses(table, gas_from_run(scenario_.file, space, RunState::start));
         scenario_.start_contents = hash_of(began);
@@ -333,21 +333,20 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
       }
       const std::filesystem::path path = std::filesystem::path(scenario_.file).parent_path() / *file;
       if (const std::filesystem::path run = resumed_run(); !run.empty() && !std::ifstream(path).good()) {
-        scenario_.notes.push_back(table.full(o.file.name) + ": found no file " + path.string() +
-                                  " that can be read; the run goes on from the start that " + run.string() + " keeps");
+        scenario_.notes.push_back(table.full(o.file.name) + ": cannot read the file " + path.string() +
+                                  "; the start is read from " + run.string());
         return without_own_masses(table, gas_from_run(run, space, RunState::start));
       }
       GasStart there = path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
       if (path.extension() == ".h5" && n == 0 && !table.has(o.scale.name)) {
-        scenario_.notes.push_back(table.full(o.scale.name) +
-                                  " is not given: it is 1 here, whatever it was in the run of " + path.string() +
-                                  "; allowed " + o.scale.name + " = the number of that run");
+        scenario_.notes.push_back(table.full(o.scale.name) + " is not given, so it is 1; if the run of " +
+                                  path.string() + " had another " + o.scale.name + ", give the same value");
       }
       const double particles = static_cast<double>(there.q.size() / space);
       if (n > 0 && std::pow(static_cast<double>(n), static_cast<double>(space)) != particles) {
-        table.complain(o.particles_per_side.name, table.found(o.particles_per_side.name) + " beside " + *file +
-                                                      ", which has " + std::to_string(there.q.size() / space) +
-                                                      " particles; allowed without it, or as many as that");
+        table.complain(o.particles_per_side.name, table.found(o.particles_per_side.name) + " but " + *file + " has " +
+                                                      std::to_string(there.q.size() / space) +
+                                                      " particles; allowed a matching number, or leave out this key");
       }
       scenario_.start_contents = hash_of(there);
       return there;
@@ -368,7 +367,7 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
   constexpr double most_particles = 2e7;
   if (std::pow(static_cast<double>(n), static_cast<double>(space)) > most_particles) {
     table.complain(o.particles_per_side.name,
-                   table.found(o.particles_per_side.name) + "; allowed at most 2e7 particles together");
+                   table.found(o.particles_per_side.name) + "; allowed at most 2e7 particles in total");
     return {};
   }
   if (kind == GasStarts::corner) return gas_in_corner(n, space);
@@ -376,13 +375,13 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
                         edges_of_box(scenario_.request.variant, parameters, space));
 }
 
-/// S, as a text that every arithmetic reads.
+/// Reads the scale S as a text that every arithmetic reads with its digits.
 void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters) {
   const GasOptions& o = gas_options();
   const std::string word = table.text(o.scale).value_or(n == 0 ? "1" : GasScales::per_side);
   const bool corner = table.plain_string(o.start.name) == GasStarts::corner && !table.has("initial");
   if (word == GasScales::per_side) {
-    if (n == 0 && !table.has(o.particles_per_side.name)) {  // a wrong one is complained about
+    if (n == 0 && !table.has(o.particles_per_side.name)) {  // a wrong value was complained about already
       table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else \"" +
                                        GasScales::listing + "\" or a number");
     }
@@ -405,7 +404,8 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
   }
 }
 
-/// A gas whose start nobody typed: the particles are counted, and it is their masses that may be too many or too few.
+/// Checks the number of masses of a gas whose start is generated. The number of particles is known then, so the masses
+/// are wrong if the two do not agree.
 bool ScenarioReader::check_masses(TomlTable& table) {
   const Request& request = scenario_.request;
   const std::size_t size = request.start.q.size();
@@ -419,7 +419,8 @@ bool ScenarioReader::check_masses(TomlTable& table) {
 
 namespace {
 
-/// The numbers of the particles with which a refusal begins: "particles 1 and 3 at", "particle 2 at", "y2 = 1 beyond".
+/// The numbers of the particles at the beginning of a message: "particles 1 and 3 at", "particle 2 at", "y2 = 1
+/// beyond".
 std::vector<std::size_t> particles_of(const std::string& why) {
   const std::size_t end = std::min({why.find(" at "), why.find(" = "), why.size()});
   std::vector<std::size_t> all;
@@ -433,7 +434,7 @@ std::vector<std::size_t> particles_of(const std::string& why) {
   return all;
 }
 
-/// The key of what a particle of which this is told is beyond, or whose images meet; empty where it is none.
+/// The key of the container or wall that a message about a particle refers to; empty if it refers to none.
 std::string key_of_edge(const std::string& why, bool has_walls) {
   const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
   const GasOptions& gas = gas_options();
@@ -445,10 +446,10 @@ std::string key_of_edge(const std::string& why, bool has_walls) {
 
 }  // namespace
 
-/// At the key that says where the particles begin; of a start in a CSV with the lines of those that are named.
+/// Complains at the key of the start of the particles. For a CSV it adds the lines of the particles in the message.
 void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& usual, std::string message) {
   const GasOptions& gas = gas_options();
-  // Of a start that nobody typed the container is the cause, and so it is where it alone was changed from outside.
+  // If the start is generated, or only the container was changed by --set, the container is the cause.
   const std::string start = table.has("initial") ? "initial" : gas.start.name;
   const std::string edge = key_of_edge(message, table.has(wall_keys().walls.name));
   const std::string holder = edge.substr(0, edge.find('.'));
@@ -472,12 +473,12 @@ void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& 
   table.complain(gas.file.name, message);
 }
 
-/// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units. One that is
-/// not is rounded, as the start is, unless nothing is left of it.
+/// Rounds the edges of a periodic box to whole units of the lattice, so that the images of a particle are on the
+/// lattice, too. An edge that would become 0 is refused.
 void ScenarioReader::round_edges(TomlTable& table) {
   Request& request = scenario_.request;
   const auto& refused = scenario_.problem->refused_parameters;
-  if (!refused(request.parameters).second.empty()) return;  // complained about
+  if (!refused(request.parameters).second.empty()) return;  // complained about elsewhere
   const std::string& key = run_keys().lattice.name;
   const bool given = table.has(key) && table.table(key).has(lattice_keys().position.name);
   const auto complain = [&](const std::string& message) {
@@ -493,9 +494,9 @@ void ScenarioReader::round_edges(TomlTable& table) {
     const double rounded = std::nearbyint(edge / unit) * unit;
     const double by = std::abs(rounded - edge);
     if (rounded == 0) {
-      complain("found a unit of " + shortest(unit) + (given ? "" : ", the usual one of this start,") +
+      complain("found a unit of " + shortest(unit) + (given ? "" : ", the default for this start,") +
                " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
-               " units, of which nothing would be left; allowed units far below the edges, such as \"2^-52\"");
+               " units and would be rounded to 0; allowed units far below the edges, such as \"2^-52\"");
       return;
     }
     moved = std::max(moved, by);
@@ -505,27 +506,27 @@ void ScenarioReader::round_edges(TomlTable& table) {
   Texts parameters = request.parameters;
   parameters[GasKeys::size] = "[" + joined(edges) + "]";
   if (const auto [wrong, message] = refused(parameters); !message.empty()) {
-    complain("found a unit of " + shortest(unit) + ", whole numbers of which are edges of " + joined(edges) +
+    complain("found a unit of " + shortest(unit) + ", which rounds the edges to " + joined(edges) +
              ", too short for problem." + wrong + " = " + request.parameters.at(GasKeys::cutoff) + "; " + message);
     return;
   }
   request.parameters = std::move(parameters);
-  scenario_.notes.push_back("the edges of the periodic box are moved by up to " + shortest(moved) +
-                            ", to whole units of the lattice");
+  scenario_.notes.push_back("the edges of the periodic box are rounded to whole units of the lattice, by up to " +
+                            shortest(moved));
 }
 
-/// Hard walls at +-size/2 of every coordinate. Mirrors by default: with the rule `event` the bounce of one particle
-/// would split the step of all.
+/// Makes hard walls at +-size/2 for every coordinate. The default rule is `mirror`, because with `event` the bounce of
+/// one particle would split the step of all.
 void ScenarioReader::read_box(TomlTable& table) {
   const WallKeys& keys = wall_keys();
   OptionInfo rule = keys.wall_rule;
   rule.default_value = wall_rules()[static_cast<std::size_t>(WallRule::mirror)];
-  rule.words = {wall_rules()[0], wall_rules()[1], wall_rules()[2]};  // hard ones
+  rule.words = {wall_rules()[0], wall_rules()[1], wall_rules()[2]};  // the rules of hard walls
   const std::string word = table.text(rule).value_or(rule.default_value);
   for (const OptionInfo* key : {&keys.walls, &keys.strength, &keys.exponent}) {
     table.know(key->name);
     if (table.has_any(key->name)) {
-      table.complain(key->name, table.found(key->name) + " beside a box; allowed container = { kind = ... } with " +
+      table.complain(key->name, table.found(key->name) + " with a box; allowed container = { kind = ... } with " +
                                     ContainerNames::none + ", " + ContainerNames::circle + " or " +
                                     ContainerNames::periodic);
     }
@@ -534,7 +535,7 @@ void ScenarioReader::read_box(TomlTable& table) {
   const std::size_t size = scenario_.request.start.q.size();
   const std::vector<std::string> edges = list_parts(parameters.at(GasKeys::size));
   if (size == 0 || !scenario_.problem->refused_size(parameters, size).empty()) return;
-  if (!scenario_.problem->refused_parameters(parameters).second.empty()) return;  // complained about with the others
+  if (!scenario_.problem->refused_parameters(parameters).second.empty()) return;  // complained about elsewhere
   Walls walls;
   for (std::size_t k = 0; k < wall_rules().size(); ++k) {
     if (wall_rules()[k] == word) walls.rule = static_cast<WallRule>(k);
@@ -549,11 +550,11 @@ void ScenarioReader::read_box(TomlTable& table) {
 }
 
 namespace {
-/// Why what needs the Hessian of so many particles is refused: it is a matrix that does not fit.
+/// Why an option that needs the Hessian is refused for many particles: the matrix does not fit into memory.
 std::string without_hessian(const Request& request, std::size_t coordinates, const std::string& above) {
   if (request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian) return {};
-  return "with " + std::to_string(coordinates) + " coordinates, whose Hessian is needed as a matrix; allowed up to " +
-         std::to_string(most_gas_coordinates_with_hessian) + " coordinates, above them " + above;
+  return "with " + std::to_string(coordinates) + " coordinates, but it needs the Hessian; allowed with at most " +
+         std::to_string(most_gas_coordinates_with_hessian) + " coordinates" + (above.empty() ? "" : "; or " + above);
 }
 }  // namespace
 
@@ -566,15 +567,15 @@ std::string refused_by_size(const Request& request, std::size_t coordinates) {
     const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;
     return "with " + std::to_string(coordinates) + " coordinates; allowed at most " +
            std::to_string(ItohAbe::most_coordinates) +
-           ": it evaluates H once a coordinate, a step of more takes minutes; take " +
+           ", because it evaluates H once for each coordinate and a step would take minutes; use " +
            (has_hessian ? other_method({"discrete-gradient", "cg"}) : other_method({"cg", "stv4"}));
   }
   if (name != "chin4a" && name != "chin4b" && name != "discrete-gradient") return {};
   return without_hessian(request, coordinates, other_method({"stv4", "blanes-moan-s6", "cg"}));
 }
 
-/// Whether what was typed has a derivative of every order is found by recording it, which taylor alone does as it
-/// begins.
+/// Checks that a typed formula has derivatives of every order, which taylor needs. Only recording the formula shows it,
+/// and taylor records it when its simulation is made.
 void ScenarioReader::check_branches() {
   const Request& request = scenario_.request;
   const bool typed =
@@ -595,11 +596,11 @@ void ScenarioReader::check_gas() {
     if (!why_not.empty()) root_.table("method").complain("name", "found " + request.method.name + " " + why_not);
   }
   check_branches();
-  const std::string no_measures = without_hessian(request, size, "none");
+  const std::string no_measures = without_hessian(request, size, "");
   if (no_measures.empty()) return;
   TomlTable run = root_.table(run_table);
-  if (scenario_.lyapunov > 0) run.complain(run_keys().lyapunov.name, "found it " + no_measures);
-  if (scenario_.eigenvalues) run.complain(run_keys().eigenvalues.name, "found it " + no_measures);
+  if (scenario_.lyapunov > 0) run.complain(run_keys().lyapunov.name, "requested " + no_measures);
+  if (scenario_.eigenvalues) run.complain(run_keys().eigenvalues.name, "requested " + no_measures);
 }
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// The units of the lattice: those given, or those that fit the start.
+// The units of the lattice: given by the scenario, or chosen for the start.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,12 +10,12 @@
 
 namespace hamflow {
 
-/// 2^-52 of the largest number of the start, hence a range of 1024 times it. For most problems 2^-52 for numbers from
-/// 1/512 to 2 too, because a start near rest says little about what follows. Of bodies that attract each other the
-/// momenta to come are known: those with which the kinetic energy would be as large as the potential energy is now.
-/// What a pair gives to a momentum may be 2^62 units over their number (PairSums), of more than a thousand particles of
-/// a gas less than the largest momentum, which one encounter can turn round: their unit is larger, so that it may be
-/// four times that.
+/// Chooses the default units: 2^-52 of the largest number of the start, which gives a range of 1024 times this number.
+/// Most problems use 2^-52 for all numbers from 1/512 to 2, because a start near rest says little about the motion. For
+/// bodies that attract each other the momenta to expect are those with a kinetic energy as large as the present
+/// potential energy. The kick of a pair may be at most 2^62 units divided by the number of pairs (PairSums). For a gas
+/// of more than a thousand particles that is less than the largest momentum, which one encounter can reverse; so the
+/// unit is made larger, until a kick may be four times the largest momentum.
 void ScenarioReader::usual_units() {
   const auto largest = [](const std::vector<double>& values) {
     double most = 0;
@@ -27,11 +27,11 @@ void ScenarioReader::usual_units() {
     return std::ldexp(1.0, -52 + (exponent < coarsest || exponent > 0 ? exponent : 0));
   };
   Request& request = scenario_.request;
-  // Particles in a container repel each other before they come near.
+  // Particles of a gas repel each other before they come close.
   const bool gas = scenario_.problem != nullptr && scenario_.problem->particles;
   const bool pairwise =
       !gas && scenario_.problem != nullptr && scenario_.problem->has_pairwise_forces && !scenario_.start_q.empty();
-  // Positions behind a mirror, as far from it as those in front, are exact in double, too.
+  // Positions behind a mirror, at the same distance as in front of it, must be exact in double, too.
   std::vector<double> positions = scenario_.start_q;
   const auto& walls = request.walls;
   if (walls && (pairwise ? walls->rule == WallRule::mirror : walls->hard())) {
@@ -49,7 +49,7 @@ void ScenarioReader::usual_units() {
     if (bits > 10) request.momentum_unit = std::ldexp(request.momentum_unit, bits - 8);
     return;
   }
-  // The start's momenta, or equal ones, times as much as makes T = |V|.
+  // The momenta of the start (or equal ones, if they are 0), scaled so that T = |V|.
   const double most = largest(scenario_.start_p);
   const auto energy_with = [&](double factor) {
     std::vector<double> p = scenario_.start_p;
@@ -103,7 +103,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     for (const double x : values) most = std::max(most, std::abs(x));
     return most;
   };
-  // Positions and momenta have units of their own: each is told beside its own size.
+  // Positions and momenta have different units, so each gets its own note.
   const auto tell = [&](const char* what, const std::vector<double>& values, double unit) {
     const double lost = rounding(values, unit);
     if (!(lost > 1e-12 * reach(values))) return;
@@ -115,13 +115,12 @@ void ScenarioReader::read_lattice(TomlTable& table) {
   const auto check = [&](const char* what, double largest, double unit) {
     if (largest > 0 && largest < unit) {
       table.complain(key, std::string("found ") + what + " of at most " + shortest(largest) +
-                              " at the start, with a unit of " + shortest(unit) + "; allowed units far below them");
+                              " at the start, but a unit of " + shortest(unit) + "; allowed much smaller units");
       return;
     }
     if (largest < unit * 0x1p62) return;
-    table.complain(key, std::string("found ") + what + " up to " + shortest(largest) +
-                            " at the start, with a unit of " + shortest(unit) +
-                            "; allowed below 2^62 units: choose a larger power of two");
+    table.complain(key, std::string("found ") + what + " up to " + shortest(largest) + " at the start, but a unit of " +
+                            shortest(unit) + "; allowed less than 2^62 units; choose a larger power of two");
   };
   check("positions", reach(scenario_.start_q), scenario_.request.position_unit);
   check("momenta", reach(scenario_.start_p), scenario_.request.momentum_unit);

@@ -1,4 +1,4 @@
-// What a run measures beside its trajectory: the Lyapunov exponents, the eigenvalues and the section of [run].
+// Reads the measured quantities of [run]: Lyapunov exponents, eigenvalues, section and events.
 #include <algorithm>
 
 #include "hamflow/detail/run/fitting_methods.hpp"
@@ -10,7 +10,7 @@ namespace hamflow {
 
 namespace {
 
-/// What a section may name: coordinates, then momenta. Numbers alone, q1, ..., pn, name those of bodies too.
+/// The names that a section may use: coordinates, then momenta. For bodies the numbered names q1, ..., pn are added.
 std::vector<std::vector<std::string>> section_names(const ProblemEntry& problem, const Texts& parameters,
                                                     std::size_t size) {
   const auto row = [](const StateNames& names) {
@@ -45,44 +45,46 @@ void ScenarioReader::read_measures(TomlTable& table) {
   if (const auto most = table.whole(keys.record_events)) {
     scenario_.record_events = *most;
   } else if (const auto size = static_cast<std::int64_t>(scenario_.start_q.size()); size > 10000) {
-    // A row has the whole state: of very many particles as many as take 1 GiB.
+    // A row has the whole state. For very many particles the table is limited to 1 GiB.
     scenario_.record_events = std::min<std::int64_t>(scenario_.record_events, (std::int64_t{1} << 30) / (16 * size));
   }
 }
 
-/// Steps are differentiated in double, and only where each is one step of one map.
+/// Refuses a key that needs derivatives of steps if they do not exist: steps are differentiated only in double, and
+/// only if each is one step of a fixed map.
 void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key) {
   const OptionInfo& arithmetic = run_keys().arithmetic;
   if (scenario_.request.arithmetic != arithmetic.default_value) {
     table.complain(key, table.found(key) + " with " + arithmetic.name + " \"" + scenario_.request.arithmetic +
                             "\"; allowed with " + arithmetic.name + " = \"" + arithmetic.default_value +
-                            "\": steps are differentiated in double");
+                            "\", because steps are differentiated only in double");
   }
   if (has_method() && describe(scenario_.request.method).halves_steps) {
     table.complain(key, table.found(key) +
-                            " with a method that halves steps which do not converge; allowed without: a step that "
-                            "was halved is not differentiated");
+                            " with a method that halves steps which do not converge; allowed without halving, because "
+                            "halved steps are not differentiated");
   }
   if (has_method() && describe(scenario_.request.method).carries_copy) {
     table.complain(key, table.found(key) + " with a method that carries a second copy of the state; allowed with " +
                             or_fitting_method("", "another method", {"stv4", "cg", "rk4"}, scenario_.problem.get(),
                                               arithmetic.default_value) +
-                            ": its steps are no map of (q, p) that could be differentiated");
+                            ", because the steps of this one are not a map of (q, p)");
   }
   if (has_method() && describe(scenario_.request.method).varies_steps) {
     table.complain(key, table.found(key) +
-                            " with steps of varying length; allowed with step_control = \"fixed\": the lengths depend "
-                            "on the state and are not differentiated");
+                            " with steps of varying length; allowed with step_control = \"fixed\", because step "
+                            "lengths that depend on the state are not differentiated");
   }
   if (scenario_.problem != nullptr && !scenario_.problem->constraint_form.empty()) {
-    table.complain(key, table.found(key) +
-                            " with constraints; allowed in coordinates without any: on a manifold steps "
-                            "have derivatives along it only, and tangent vectors of all of space are no motion");
+    table.complain(key,
+                   table.found(key) +
+                       " with constraints; allowed in coordinates without constraints, because steps on a manifold "
+                       "have derivatives only along it");
   }
   const auto& structure = scenario_.problem != nullptr ? scenario_.problem->structure : std::nullopt;
   if (structure && structure->time) {
-    table.complain(key, table.found(key) + " with an H that depends on t; allowed with H(q, p): steps of H(q, p, t) " +
-                            "are not differentiated");
+    table.complain(key, table.found(key) + " with an H that depends on t; allowed with H(q, p), because steps of " +
+                            "H(q, p, t) are not differentiated");
   }
 }
 
@@ -104,7 +106,7 @@ void ScenarioReader::read_events(TomlTable& table) {
     }
     const bool again = std::any_of(scenario_.events.begin(), scenario_.events.end(),
                                    [&](const UserEvent& other) { return other.name == event.name; });
-    if (again) entry.complain(keys.name.name, "found the name " + event.name + " a second time; allowed another");
+    if (again) entry.complain(keys.name.name, "found the name " + event.name + " a second time; allowed another name");
     if (const auto direction = entry.whole(keys.direction)) event.zero.direction = static_cast<int>(*direction);
     event.stops = entry.text(keys.action).value_or("") == keys.action.words.back();
     event.zero.expression = read_changing_expression(entry, keys.expression);
@@ -122,7 +124,7 @@ void ScenarioReader::read_section(TomlTable& table) {
     return;
   }
   TomlTable section = table.table(key);
-  if (!section.exists()) return;  // complained about
+  if (!section.exists()) return;  // complained about elsewhere
   const SectionKeys& keys = section_keys();
   Section wanted;
   if (const auto value = section.text(keys.value)) {
@@ -179,7 +181,7 @@ void ScenarioReader::read_section_coordinate(TomlTable& section, Section wanted)
 }
 
 namespace {
-/// The first number of the state, of q and then of p, that an expression names; `all` where it names none.
+/// The index in (q, p) of the first number of the state that an expression uses; `all` if it uses none.
 std::size_t first_used(const StateExpression& expression, std::size_t all) {
   std::size_t first = 0;
   while (first < all && !expression.uses(first)) ++first;
@@ -187,7 +189,7 @@ std::size_t first_used(const StateExpression& expression, std::size_t all) {
 }
 }  // namespace
 
-/// One of which a zero is sought: it is none that is the same for every state.
+/// Reads an expression whose zeros are searched. It must not be constant.
 std::optional<StateExpression> ScenarioReader::read_changing_expression(TomlTable& table, const OptionInfo& key) {
   auto expression = read_expression(table, key);
   const std::size_t all = 2 * scenario_.start_q.size();
@@ -213,14 +215,14 @@ void ScenarioReader::read_section_expression(TomlTable& section, Section wanted)
   scenario_.section = wanted;
 }
 
-/// The same beyond double; nothing in double.
+/// The expression in arithmetic with more digits than double; empty in double.
 ExpressionInDigits ScenarioReader::in_digits(const StateExpression& expression) const {
   if (digits_beyond_double(scenario_.request.arithmetic) == 0) return {};
   return expression_in_digits(expression.text(), *scenario_.problem, scenario_.request.parameters,
                               scenario_.start_q.size());
 }
 
-/// An expression of the state; where it is wrong, the complaint says at which column of it.
+/// Reads an expression of the state. If it is wrong, the complaint names the column in it.
 std::optional<StateExpression> ScenarioReader::read_expression(TomlTable& table, const OptionInfo& key) {
   const auto text = table.text(key);
   if (!text || scenario_.problem == nullptr || scenario_.start_q.empty()) return std::nullopt;

@@ -1,4 +1,4 @@
-// [method]: its name, and the options that its family declares.
+// Reads [method]: the name, and the options that the family of the method declares.
 #include <algorithm>
 
 #include "engine/large_steps.hpp"
@@ -14,7 +14,7 @@ void ScenarioReader::read_method(TomlTable& table) {
   MethodSpec& spec = scenario_.request.method;
   if (!read_method_name(table)) {
     spec.name.clear();
-    table.know_all(all_method_keys());  // which method was meant is not known
+    table.know_all(all_method_keys());  // the method is unknown, so no key can be called wrong
     table.finish();
     return;
   }
@@ -22,14 +22,14 @@ void ScenarioReader::read_method(TomlTable& table) {
   for (const std::string& key : dropped) {
     table.know(key);
     if (key == monitor_option && find_option(find_method(spec.name).family->options, key) != nullptr) {
-      scenario_.notes.push_back(table.full(key) + " is not used: steps of equal length follow no monitor");
+      scenario_.notes.push_back(table.full(key) + " is not used: steps of equal length have no monitor");
       continue;
     }
     scenario_.notes.push_back(
         table.full(key) + " of the file is not used: " + table.full(method_name_key().name) + " is set to " +
         spec.name +
         (find_option(find_method(spec.name).family->options, key) != nullptr && !spec.options.contains(key)
-             ? ", which means something else by it"
+             ? ", for which it has another meaning"
              : ""));
   }
   const Texts in_name = spec.options;
@@ -37,8 +37,7 @@ void ScenarioReader::read_method(TomlTable& table) {
     if (std::find(dropped.begin(), dropped.end(), option.name) != dropped.end()) continue;
     const auto text = table.text(option);
     if (table.has(option.name) && in_name.contains(option.name)) {
-      table.complain(option.name,
-                     "found it beside the same option in " + table.full(method_name_key().name) + "; allowed once");
+      table.complain(option.name, "given here and in " + table.full(method_name_key().name) + "; allowed once");
     } else if (text) {
       spec.options[option.name] = *text;
     }
@@ -57,7 +56,7 @@ void ScenarioReader::read_method(TomlTable& table) {
   table.finish(scenario_.problem.get(), spec.name);
 }
 
-/// At the option that is told of, "monitor: found ...", where [method] has it; else at the name.
+/// Complains at the option that the message names ("monitor: found ...") if [method] has it, else at the name.
 void ScenarioReader::complain_of_method(TomlTable& table, const std::string& why_not) {
   for (const OptionInfo& option : find_method(scenario_.request.method.name).family->options) {
     const std::string head = option.name + ": ";
@@ -68,7 +67,7 @@ void ScenarioReader::complain_of_method(TomlTable& table, const std::string& why
   table.complain(key, table.found(key) + "; " + why_not);
 }
 
-/// What a step of so many unknowns does not allow, and what it takes in place of what was asked for.
+/// Refuses options that a step with so many unknowns does not allow, and notes options that were replaced.
 void ScenarioReader::check_method_for_size(TomlTable& table) {
   if (!has_method() || scenario_.problem == nullptr || refused_option(scenario_.request.method)) return;
   const MethodSpec& spec = scenario_.request.method;
@@ -81,7 +80,7 @@ void ScenarioReader::check_method_for_size(TomlTable& table) {
   }
 }
 
-/// False where there is none that is known.
+/// Reads the name; returns false if there is no known method.
 bool ScenarioReader::read_method_name(TomlTable& table) {
   const OptionInfo& key = method_name_key();
   const auto text = table.plain_string(key.name);

@@ -1,4 +1,4 @@
-// [output]: where results go, in which formats, with which figures.
+// Reads [output]: the folder, the formats, the figures and the observables.
 #include <algorithm>
 
 #include "column_names.hpp"
@@ -16,8 +16,7 @@ void ScenarioReader::read_output(TomlTable& table) {
   if (const auto figures = table.words(keys.figures)) scenario_.figures = *figures;
   const bool has_h5 = std::find(scenario_.formats.begin(), scenario_.formats.end(), "h5") != scenario_.formats.end();
   if (!scenario_.figures.empty() && !has_h5) {
-    table.complain(key,
-                   "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
+    table.complain(key, "found figures without the format h5, which they need; allowed with formats = [\"h5\", ...]");
   }
   read_observables(table);
   const FigureFacts facts = scenario_.figures.empty() ? FigureFacts() : figure_facts();
@@ -48,10 +47,10 @@ FigureFacts ScenarioReader::figure_facts() const {
   return facts;
 }
 
-/// A name that may stand in files and figures beside those of the state.
+/// Reads the observables. Their names become columns of files and figures, beside those of the state.
 void ScenarioReader::read_observables(TomlTable& output) {
   const std::string& key = output_keys().observables.name;
-  // Without a start there are no parameters either.
+  // Without a start the parameters are not known either.
   const bool known = scenario_.problem != nullptr && !scenario_.start_q.empty();
   const std::size_t size = scenario_.start_q.size();
   if (known) {
@@ -68,7 +67,7 @@ void ScenarioReader::read_observables(TomlTable& output) {
     output.know(key);
     return;
   }
-  std::vector<std::string> taken;  // of many particles they are many
+  std::vector<std::string> taken;  // made only if needed: for many particles the list is long
   if (known) {
     taken = columns_of_every_run(*scenario_.problem, scenario_.request.parameters, size);
     for (const NamedExpression& own : scenario_.observables) taken.push_back(own.name);

@@ -1,4 +1,4 @@
-// [problem]: which one, and its parameters.
+// Reads [problem]: the choice of the problem and its parameters.
 #include <algorithm>
 
 #include "hamflow/formula/problem_texts.hpp"
@@ -18,14 +18,14 @@ std::vector<std::string> problem_names() {
 }
 const OptionInfo& problem_name_key() {
   static const OptionInfo key{.name = "name",
-                              .meaning = "of the problem",
+                              .meaning = "name of the problem",
                               .type = OptionType::word,
                               .required = true,
                               .words = problem_names()};
   return key;
 }
 
-/// Whether the keys of [problem] that belong to an entry of the catalogue have this one; those that select it aside.
+/// Whether this is a key of an entry of the catalogue, other than the keys that select the entry.
 bool has_key(const ProblemInfo& info, const std::string& key) {
   if (find_option(keys_of(info), key) != nullptr) return true;
   if (!info.frame.name.empty() && key == info.frame.name) return true;
@@ -37,7 +37,7 @@ bool has_key(const ProblemInfo& info, const std::string& key) {
   return (key == "orbit" && !info.starts.empty()) || (key == "bodies" && info.two_bodies);
 }
 
-/// Every key that [problem] has with some problem.
+/// Whether some problem has this key in [problem].
 bool is_problem_key(const std::string& key) {
   const WallKeys& walls = wall_keys();
   for (const std::string& each :
@@ -51,8 +51,8 @@ bool is_problem_key(const std::string& key) {
          std::any_of(typed_examples().begin(), typed_examples().end(), has);
 }
 
-/// With which other choices of its problem a key goes that the chosen ones do not have: 'with potential = "power"';
-/// empty where there are none.
+/// The choices of a problem with which a key is allowed that the chosen ones do not allow: 'with potential = "power"';
+/// empty if there are none.
 std::string other_choices_with(const std::string& name, const Choices& chosen, const std::string& key) {
   for (const auto& entries : {problems(), typed_examples()}) {
     for (const ProblemEntry& entry : entries) {
@@ -61,7 +61,7 @@ std::string other_choices_with(const std::string& name, const Choices& chosen, c
     }
   }
   std::vector<std::string> selecting;
-  std::map<std::string, std::vector<std::string>> values;  // of each selecting key, where the key is
+  std::map<std::string, std::vector<std::string>> values;  // values of each selecting key with which the key is allowed
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name || !has_key(entry.info, key)) continue;
     for (const auto& [choice, value] : entry.info.variant) {
@@ -95,8 +95,8 @@ void ScenarioReader::read_problem(TomlTable& table) {
   if (!name) {
     for (const std::string& other : table.has(key.name) ? std::vector<std::string>() : table.keys()) {
       if (is_problem_key(other) || nearest(other, std::vector<std::string>{key.name}).empty()) continue;
-      table.complain(other, "found an unknown key; allowed " + key.name + ", and what that problem has; did you mean " +
-                                key.name + "?");
+      table.complain(other, "found an unknown key; allowed " + key.name +
+                                " and the keys of that problem; did you mean " + key.name + "?");
     }
     return;
   }
@@ -106,13 +106,13 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const bool particles = static_cast<bool>(listed->particles);
   particles ? read_gas(table) : typed ? read_typed_problem(table, *listed) : read_variant(table, *name);
   if (scenario_.problem == nullptr) {
-    if (!particles) read_uncertain(table, *name);  // else all that is wrong was told
+    if (!particles) read_uncertain(table, *name);  // for a gas all errors were reported already
     return;
   }
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
-    if (scenario_.request.parameters.contains(parameter.name)) continue;  // was read with the entry
+    if (scenario_.request.parameters.contains(parameter.name)) continue;  // read already with the entry
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
       scenario_.request.parameters[parameter.name] = *text;
     }
@@ -124,7 +124,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
     read_orbit(table);
   } else if (typed && table.has("orbit") && scenario_.problem->structure->time) {
     table.complain("orbit", table.found("orbit") + "; allowed with a " + FormulaKeys::central_potential +
-                                " without t: in a field that changes no orbit keeps its energy");
+                                " without t, because in a time-dependent field an orbit does not keep its energy");
     table.know("orbit");
   }
   if (info.two_bodies) read_bodies(table);
@@ -145,7 +145,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
 void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
   const ProblemEntry& problem = *scenario_.problem;
   const Texts& parameters = scenario_.request.parameters;
-  // What follows from the start is not there yet.
+  // Parameters that follow from the start are not known yet.
   for (const StartInfo& start : problem.info.starts) {
     const bool this_one = scenario_.request.start.geometric() && start.kind == scenario_.request.start.kind;
     if (this_one && !start.derives.empty() && !start_is_known) return;
@@ -153,16 +153,16 @@ void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
   const auto [key, message] = problem.refused_parameters(parameters);
   if (message.empty()) return;
   if (key.empty()) {
-    table.complain("name", "found parameters that do not go together; allowed: " + message);
-  } else if (key.find('.') != std::string::npos) {  // in a table of its own: the message says what was found
+    table.complain("name", "found parameters that do not fit together; allowed: " + message);
+  } else if (key.find('.') != std::string::npos) {  // a key of a subtable: the message says what was found
     table.complain_in(key, message);
   } else {
     table.complain(key, table.found(key) + "; " + message);
   }
 }
 
-/// The variant or the name is wrong, which is complained about already; what else is wrong, whatever was meant, follows
-/// at once.
+/// Called if the variant or the name is wrong, which was complained about already. Complains about all keys that are
+/// wrong for every variant, so that the user sees all errors at once.
 void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
   std::vector<std::string> seen;
   std::vector<std::string> kinds;
@@ -173,7 +173,7 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
     for (const ParameterInfo& parameter : entry.info.parameters) {
       if (std::find(seen.begin(), seen.end(), parameter.name) != seen.end()) continue;
       seen.push_back(parameter.name);
-      OptionInfo optional = parameter;  // what has to be given is not known
+      OptionInfo optional = parameter;  // whether it is required is not known
       optional.required = false;
       (void)table.text(optional, " (" + parameter.meaning + ")");
     }
@@ -200,18 +200,18 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
 }
 
 namespace {
-/// With which other choice a selecting key can be given: "with coordinates = cartesian".
+/// The other choice with which a selecting key is allowed: 'with coordinates = "cartesian"'.
 std::string where_allowed(const std::string& name, const std::string& key) {
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name || choice_of(entry.info, key).empty()) continue;
     const std::string chart = choice_of(entry.info, FormulaKeys::coordinates);
     if (!chart.empty()) return std::string("with ") + FormulaKeys::coordinates + " = \"" + chart + "\"";
   }
-  return "nothing";
+  return "for other problems";
 }
 
-/// The keys that select among the entries of a name, with their words and, where a scenario need not choose, the
-/// default.
+/// The keys that select among the entries of one name, with their words and defaults. A key without a default is
+/// required.
 const std::vector<OptionInfo>& selecting_keys(const std::string& name) {
   static const std::map<std::string, std::vector<OptionInfo>> all = [] {
     std::map<std::string, std::vector<OptionInfo>> found;
@@ -274,7 +274,7 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
     table.complain("name", error.what());
     return;
   }
-  // Not every entry has every key: what was given and would change nothing is refused.
+  // Not every entry has every selecting key. A key without effect is refused.
   Choices chosen;
   for (const OptionInfo& option : selecting_keys(name)) {
     const std::string& key = option.name;

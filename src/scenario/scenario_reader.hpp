@@ -1,4 +1,4 @@
-// The walk through a parsed document, table by table.
+// Reads a parsed document table by table into a scenario.
 #pragma once
 
 #include "gas_start.hpp"
@@ -13,23 +13,23 @@ struct FigureFacts;
 
 struct Document {
   toml::table root;
-  std::string file_method;                  // its name in the file, before anything was set
-  std::optional<std::string> resumed_in{};  // of a run that goes on, its folder; empty: that of the scenario
+  std::string file_method;                  // name of the method in the file, before any --set
+  std::optional<std::string> resumed_in{};  // folder of a run that is resumed; empty text: the folder of the scenario
 };
 
-/// A text as a document in which each --set is carried out; none where it is no TOML, which is complained about.
+/// Parses a text and applies every --set. If the text is not TOML, it complains and returns nullopt.
 std::optional<Document> parsed_document(const std::string& text, const std::string& name,
                                         const std::vector<std::string>& sets, std::vector<Complaint>& complaints);
-/// The scenario as it is carried out, which `run` takes as it is: the file's own text, or, where something was set from
-/// outside, the document written anew.
+/// The text of the scenario that is run: the text of the file or, if something was set from outside, the document as
+/// text. `run` reads it without any --set.
 std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root);
 /// Every value by its dotted path.
 std::map<std::string, Setting> settings_of(const toml::table& root);
 
-/// Whether [problem] asks for a choice that is typed (ProblemInfo::typed_choice).
+/// Whether [problem] has a typed choice (ProblemInfo::typed_choice).
 bool has_typed_choice(TomlTable& table, const ProblemInfo& info);
 
-/// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
+/// Reads and checks the parts of one scenario. Each function collects complaints and continues.
 class ScenarioReader {
  public:
   ScenarioReader(const Document& document, const std::string& file, std::vector<Complaint>& complaints)
@@ -57,14 +57,14 @@ class ScenarioReader {
     return std::move(scenario_);
   }
 
-  /// [problem] alone.
+  /// Reads only [problem].
   Scenario read_problem_alone() {
     TomlTable problem = root_.table("problem");
     read_problem(problem);
     return scenario_;
   }
 
-  /// Why no start has the energy asked for; empty where one has, or none was asked for.
+  /// Why no start has the requested energy; empty if one has, or no energy was requested.
   const std::string& no_start() const { return no_start_; }
 
  private:
@@ -140,9 +140,9 @@ class ScenarioReader {
   const std::optional<std::string>& resumed_in_;
   const toml::table& document_;
   std::string no_start_;
-  std::string driven_hamiltonian_;        // the text of H(q, p, t); empty where H does not depend on t
-  std::vector<std::size_t> start_lines_;  // of the particles of a gas in its CSV
-  StartSpec start_of_bodies_;             // as numbers that any arithmetic works out
+  std::string driven_hamiltonian_;        // the text of H(q, p, t); empty if H does not depend on t
+  std::vector<std::size_t> start_lines_;  // lines of the particles in the CSV of a gas
+  StartSpec start_of_bodies_;             // as expressions that every arithmetic evaluates with all its digits
   Scenario scenario_;
 };
 

@@ -1,4 +1,4 @@
-// [run]: how long, how fine, in which arithmetic, what is recorded.
+// Reads [run]: length, step size, arithmetic and samples.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace hamflow {
 
 namespace {
 
-/// Positions and momenta; of particles velocities too.
+/// The number of values in a sample: positions and momenta; for particles velocities, too.
 std::size_t numbers_of_sample(const Scenario& scenario) {
   return scenario.start_q.size() * (scenario.problem != nullptr && scenario.problem->particles ? 3 : 2);
 }
@@ -45,11 +45,11 @@ void ScenarioReader::read_map(TomlTable& table) {
   if (!scenario_.map) return;
   if (has_method() && describe(scenario_.request.method).varies_steps) {
     table.complain(keys.map.name, table.found(keys.map.name) + " with steps of varying length; allowed with " +
-                                      "step_control = \"fixed\": the steps of a map are all alike");
+                                      "step_control = \"fixed\", because all steps of a map are equal");
   }
   if (table.has(keys.record.name)) {
     table.complain(keys.record.name, table.found(keys.record.name) + " with " + keys.map.name + "; allowed " +
-                                         keys.record_every.name + ": a map has no states between its steps");
+                                         keys.record_every.name + ", because a map has no states between its steps");
   }
 }
 
@@ -68,7 +68,7 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
   const OptionInfo& key = run_keys().arithmetic;
   const auto name = table.plain_string(key.name);
   if (!name) {
-    (void)table.text(key);  // of another type, which is complained about, or not given
+    (void)table.text(key);  // complains if the value has another type
     return;
   }
   try {
@@ -87,11 +87,12 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
 }
 
-/// True, with a complaint, for a key of times that no step ends at where t is a part of the state.
+/// Refuses a key of times if the steps have varying lengths: t is then a part of the state, and no step ends at a given
+/// time. Returns true if it complained.
 bool ScenarioReader::refuse_time(TomlTable& table, const std::string& key, const std::string& allowed) {
   if (!table.has(key) || !has_method() || !describe(scenario_.request.method).varies_steps) return false;
   table.complain(key, table.found(key) + " with " + describe(scenario_.request.method).name + "; allowed " + allowed +
-                          ": with steps of varying length t is a part of the state");
+                          ", because steps of varying length do not end at a given time");
   return true;
 }
 
@@ -117,21 +118,22 @@ void ScenarioReader::read_length(TomlTable& table) {
                      table.found(end_key) + " with dt = " + shortest(scenario_.dt) + "; allowed the sign of dt");
     } else if (whole > static_cast<double>(most_steps)) {
       table.complain(end_key, table.found(end_key) + "; allowed at most 2^53 steps of dt");
-    } else if (std::abs(ratio - whole) > std::max(1e-9, 4 * whole * 0x1p-52) ||  // the quotient itself rounds
+    } else if (std::abs(ratio - whole) > std::max(1e-9, 4 * whole * 0x1p-52) ||  // the quotient is rounded
                (whole == 0 && *t_end != 0)) {
       const double fitting = std::max(whole, 1.0);
       table.complain(end_key, table.found(end_key) + ", which is " + shortest(ratio) +
                                   " steps of dt = " + shortest(scenario_.dt) +
-                                  "; allowed a whole number of steps, nearest dt = " + shortest(*t_end / fitting) +
+                                  "; allowed a whole number of steps, e.g. dt = " + shortest(*t_end / fitting) +
                                   " or " + end_key + " = " + shortest(fitting * scenario_.dt));
     } else {
       scenario_.steps = static_cast<std::int64_t>(whole);
-      if (whole == 0) scenario_.notes.push_back(table.full(end_key) + " = 0: no step is taken");
+      if (whole == 0) scenario_.notes.push_back(table.full(end_key) + " = 0, so no step is taken");
     }
   }
 }
 
-/// By steps, or at given times. A time belongs to the step before it, one that is a step's up to rounding to that step.
+/// Reads the samples: by steps, or at given times. A time belongs to the step before it; a time that is the time of a
+/// step up to rounding belongs to that step.
 void ScenarioReader::read_samples(TomlTable& table) {
   const RunKeys& keys = run_keys();
   const auto every = table.whole(keys.record_every);
@@ -143,7 +145,7 @@ void ScenarioReader::read_samples(TomlTable& table) {
                    "found " + keys.record.name + " and " + keys.record_every.name + " together; allowed one of them");
     return;
   }
-  if (scenario_.dt == 0) return;  // complained about
+  if (scenario_.dt == 0) return;  // complained about elsewhere
   const auto steps = static_cast<double>(scenario_.steps);
   double before = 0;
   for (const std::string& time : *times) {
@@ -154,14 +156,14 @@ void ScenarioReader::read_samples(TomlTable& table) {
     const double step = at_step ? whole : std::floor(ratio);
     if (!(step >= 0 && (at_step ? whole <= steps : ratio < steps))) {
       table.complain(keys.record.name,
-                     "found the time " + time + "; allowed from 0 to the end, " + shortest(steps * scenario_.dt));
+                     "found the time " + time + "; allowed times from 0 to the end, " + shortest(steps * scenario_.dt));
       return;
     }
     if (!scenario_.record.empty() && !((t - before) * scenario_.dt > 0)) {
-      table.complain(keys.record.name, "found the time " + time + " after " + scenario_.record.back() +
-                                           "; allowed times in the order of the run, " +
-                                           (scenario_.dt > 0 ? "each later" : "with dt < 0 each earlier") +
-                                           " than the one before");
+      table.complain(keys.record.name,
+                     "found the time " + time + " after " + scenario_.record.back() +
+                         "; allowed times in the order of the run, " +
+                         (scenario_.dt > 0 ? "strictly increasing" : "strictly decreasing for dt < 0"));
       return;
     }
     before = t;

@@ -1,4 +1,4 @@
-// [problem]: where it starts, by an orbit, by a numbered case or by a state.
+// Reads the start in [problem]: an orbit, a numbered case or a state.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace hamflow {
 
-/// `case = 1`, with the keys of that start beside it.
+/// Reads `case = 1` and the keys of that start.
 void ScenarioReader::read_numbered_start(TomlTable& table) {
   const ProblemInfo& info = scenario_.problem->info;
   const auto number =
@@ -34,11 +34,11 @@ void ScenarioReader::read_numbered_start(TomlTable& table) {
     for (const std::string& key : start.keys) {
       table.know(key);
       if (!table.has(key) || std::find(of_this.begin(), of_this.end(), key) != of_this.end()) continue;
-      if (table.has(info.start_key) && !number) continue;  // which case was meant is not known
+      if (table.has(info.start_key) && !number) continue;  // the case is unknown
       const std::string message = table.found(key) + "; allowed only with " + info.start_key + " = ...";
       if (!table.has(info.start_key)) table.complain(key, message);
       if (number) table.complain(key, table.found(key) + "; allowed with this case: " + joined(of_this));
-      of_this.push_back(key);  // said once
+      of_this.push_back(key);  // complain only once
     }
   }
 }
@@ -46,8 +46,7 @@ void ScenarioReader::read_numbered_start(TomlTable& table) {
 void ScenarioReader::refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because) {
   for (const std::string& parameter : start.derives) {
     if (!table.has(parameter)) continue;
-    table.complain(parameter,
-                   table.found(parameter) + ", but it follows from the orbit; allowed nothing with " + because);
+    table.complain(parameter, table.found(parameter) + ", but it follows from the orbit; leave it out with " + because);
   }
 }
 
@@ -96,7 +95,7 @@ void ScenarioReader::read_orbit(TomlTable& table) {
     if (kinds.empty()) {
       orbit.complain("kind",
                      orbit.found("kind") + "; allowed without: " +
-                         (by_keys == nullptr ? "this problem has no starts by geometry" : joined(by_keys->keys)));
+                         (by_keys == nullptr ? "this problem has no orbits by geometry" : joined(by_keys->keys)));
       for (const StartInfo& any : info.starts) orbit.know_all(any.keys);
       orbit.know("kind");
       orbit.know("direction");
@@ -136,13 +135,13 @@ void ScenarioReader::read_initial(TomlTable& table) {
   const OptionInfo& velocities = problem.info.velocities;
   const auto given = velocities.name.empty() ? std::nullopt : table.text(velocities);
   if (given && table.has(velocities.name) && table.has("initial")) {
-    table.complain(velocities.name, table.found(velocities.name) + " beside initial; allowed one of them");
+    table.complain(velocities.name, table.found(velocities.name) + " together with initial; allowed one of them");
     table.know("initial");
     return;
   }
   if (!table.has("initial")) {
     table.know("initial");
-    if (!spec.q.empty()) return;  // of a gas
+    if (!spec.q.empty()) return;  // a gas has its start already
     if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
     if (!problem.info.start_key.empty() && table.has(problem.info.start_key)) return;
     if (!problem.info.default_q.empty()) {
@@ -171,7 +170,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
   const auto texts = [&](const OptionInfo& list) { return initial.numbers(list).value_or(std::vector<std::string>{}); };
   for (const std::string& other : {std::string("orbit"), problem.info.start_key}) {
     if (other.empty() || !table.has(other)) continue;
-    table.complain("initial", "found it beside " + other + "; allowed one of them");
+    table.complain("initial", "found together with " + other + "; allowed one of them");
     return;
   }
   spec.q = texts(list_key("q", problem.dimension));
@@ -181,7 +180,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
   initial.finish();
 }
 
-/// `energy`, beside a state of which exactly one component is left to it.
+/// Reads `energy`. Exactly one component of the state must then be "+" or "-" and is computed from it.
 void ScenarioReader::read_start_energy(TomlTable& initial) {
   StartSpec& spec = scenario_.request.start;
   const OptionInfo key = number_key("energy");
@@ -190,17 +189,18 @@ void ScenarioReader::read_start_energy(TomlTable& initial) {
   const auto open = std::count_if(given.begin(), given.end(), is_left_to_energy);
   const auto energy = initial.text(key);
   if (open > 1) {
-    initial.complain(list, "found " + std::to_string(open) + " components left to the energy; allowed one");
+    initial.complain(list, "found " + std::to_string(open) + " components \"+\" or \"-\"; allowed one");
   } else if (open == 1 && !initial.has(key.name)) {
-    initial.missing(key.name, "a number: the value of H from which the open component of " + list + " follows");
+    initial.missing(key.name,
+                    "a number: the value of H from which the component \"+\" or \"-\" of " + list + " is computed");
   } else if (open == 0 && energy && !given.empty()) {
-    initial.complain(key.name, "found it beside all components of " + list + "; allowed with one of them \"+\", the " +
-                                   "largest root of H = energy, or \"-\", the smallest");
+    initial.complain(key.name, "found together with all components of " + list + "; allowed if one of them is \"+\", " +
+                                   "the largest root of H = energy, or \"-\", the smallest");
   }
   if (open == 1 && energy) spec.energy = *energy;
 }
 
-/// A start by `initial` is meant as it is given, unless the scenario says otherwise.
+/// Reads the frame of bodies. A start by `initial` is used as given, unless the scenario says otherwise.
 void ScenarioReader::read_frame(TomlTable& table) {
   const OptionInfo& key = scenario_.problem->info.frame;
   if (key.name.empty()) return;
@@ -209,7 +209,7 @@ void ScenarioReader::read_frame(TomlTable& table) {
   scenario_.request.start.barycentric = frame.value_or(usual) == StartFrames::barycentric;
 }
 
-/// Where the size of the problem follows from the start.
+/// Checks the size of a problem whose size follows from the start.
 bool ScenarioReader::check_size(TomlTable& table) {
   const StartSpec& spec = scenario_.request.start;
   if (spec.geometric()) return true;
@@ -226,7 +226,7 @@ bool ScenarioReader::check_size(TomlTable& table) {
   check(other, size);
   if (complaints_.size() == before && size != spec.q.size()) {
     at.complain(other, "found " + std::to_string(size) + " entries; allowed " + std::to_string(spec.q.size()) +
-                           ", as many as q has");
+                           ", the number of entries of q");
   }
   return complaints_.size() == before;
 }
@@ -249,13 +249,13 @@ void ScenarioReader::check_start(TomlTable& table) {
     for (const Condition& condition : conditions) {
       if (condition.holds()) continue;
       possible = false;
-      // The key to blame is dotted from the root; complain where it stands.
+      // The key of a condition is a path from the root. The complaint is made at the table that holds it.
       const std::string inside = condition.key.substr(std::string("problem.").size());
       const bool in_orbit = inside.starts_with("orbit.");
       TomlTable at = in_orbit ? table.table("orbit") : table;
       const std::string key = in_orbit ? inside.substr(6) : inside;
       at.complain(key, at.found(key) + "; allowed " + condition.statement + ", but " + shortest(condition.left) +
-                           (condition.strict ? " >= " : " > ") + shortest(condition.right) + ": fails by " +
+                           (condition.strict ? " >= " : " > ") + shortest(condition.right) + ", exceeded by " +
                            shortest(condition.left - condition.right));
     }
   }
@@ -266,7 +266,7 @@ void ScenarioReader::check_start(TomlTable& table) {
       if (start.kind != request.start.kind) continue;
       for (const std::string& name : start.derives) {
         if (!request.parameters.at(name).empty()) continue;
-        table.complain("name", "found a start from which " + name + " follows to be infinite; allowed smaller numbers");
+        table.complain("name", "found a start that makes " + name + " infinite; allowed smaller numbers");
       }
     }
     check_parameters(table, true);
@@ -288,16 +288,16 @@ void ScenarioReader::check_start(TomlTable& table) {
   scenario_.start_p = start.p;
   if (geometric && request.start.kind.empty() && request.start.orbit.contains("energy")) {
     const double wanted = evaluate_number<double>(request.start.orbit.at("energy"));
-    // An orbit is one of the problem without walls.
+    // An orbit belongs to the problem without walls.
     const double found = find_problem(request.problem, request.variant)->energy(request.parameters, start.q, start.p);
     double size = std::abs(wanted) + std::abs(found);
     for (const double p : start.p) size += p * p;
     if (!(std::abs(found - wanted) <= 1e-8 * size)) {
-      table.complain("orbit", "found no start of that energy that double can hold; allowed initial = { q, p }");
+      table.complain("orbit", "a start with this energy cannot be represented in double; give initial = { q, p }");
       return;
     }
   }
-  // Off the constraints their gradients are of no interest.
+  // The other checks only make sense on the constraints.
   if (problem.residuals && !check_constraints(table, start)) return;
   const std::string why_not = problem.refused_start(request.parameters, start.q);
   if (!why_not.empty()) {
@@ -307,8 +307,9 @@ void ScenarioReader::check_start(TomlTable& table) {
   }
   const bool unsolved = std::any_of(start.p.begin(), start.p.end(), [](double p) { return !std::isfinite(p); });
   if (!request.start.v.empty() && unsolved) {
-    table.complain("initial",
-                   "velocities do not determine the momenta: the mass matrix is singular at this start; give p");
+    table.complain(
+        "initial",
+        "velocities do not determine the momenta, because the mass matrix is singular at this start; give p");
     return;
   }
   if (!problem.regular(request.parameters, start.q, start.p)) {
@@ -321,7 +322,7 @@ void ScenarioReader::check_start(TomlTable& table) {
 
 namespace {
 
-/// The largest of typed constraints at a point, with the constraint's key; of others the sum of all.
+/// The typed constraint with the largest residual at a point, with its key; for other constraints the sum of all.
 std::string largest_of(const Request& request, const Frame& at, double sum, const std::string& formula) {
   const FormulaTexts texts = formula_texts(request.variant);
   const std::string allowed = "; allowed at most " + shortest(most_residual_at_start) + ": ";
@@ -344,22 +345,23 @@ std::string largest_of(const Request& request, const Frame& at, double sum, cons
 
 }  // namespace
 
-/// At the key that gives the start.
+/// Complains at the key that gives the start.
 void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& message) {
   scenario_.problem->particles ? complain_of_particles(table, usual, message) : table.complain(usual, message);
 }
 
-/// The motion begins on the constraints and along them.
+/// Checks that the start lies on the constraints and its velocity is tangent to them.
 bool ScenarioReader::check_constraints(TomlTable& table, const Frame& start) {
   const auto [position, velocity] = scenario_.problem->residuals(scenario_.request.parameters, start.q, start.p);
   if (!(position <= most_residual_at_start)) {
-    table.complain("initial", "found a start off the constraints, " +
+    table.complain("initial", "found a start that violates the constraints, " +
                                   largest_of(scenario_.request, start, position, scenario_.problem->info.formula));
     return false;
   }
   if (!(velocity <= most_residual_at_start)) {
-    table.complain("initial", "found a start that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) +
-                                  "; allowed at most " + shortest(most_residual_at_start) + ": a velocity along them");
+    table.complain("initial", "found a velocity that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) +
+                                  "; allowed at most " + shortest(most_residual_at_start) +
+                                  ", a velocity along the constraints");
     return false;
   }
   return true;

@@ -24,7 +24,7 @@ std::string toml_numbers(const std::vector<std::string>& texts) {
   return toml_text({.name = "", .type = OptionType::list}, "[" + joined(texts) + "]");
 }
 
-/// Few digits: the states of an example are arbitrary.
+/// Rounds to few digits, since the states of an example are arbitrary.
 std::string rounded(double x) {
   char buffer[32];
   (void)std::snprintf(buffer, sizeof buffer, "%.3g", x);
@@ -32,17 +32,17 @@ std::string rounded(double x) {
 }
 std::string rounded_list(const std::vector<double>& numbers) { return "[" + joined(numbers, rounded) + "]"; }
 
-/// Lines of code with comments beside them, aligned within a block.
+/// Lines of TOML with comments at their ends, which are aligned within a block.
 class Page {
  public:
   /// @param all false: lines that are set alone, without prose
   explicit Page(bool all) : all_(all) {}
   void line(const std::string& code, const std::string& comment = "") { block_.emplace_back(code, comment); }
-  /// A key that is not set.
+  /// A key that is not set: a line that is commented out.
   void off(const std::string& code, const std::string& comment) {
     if (all_) line("# " + code, comment);
   }
-  /// Full lines of comment, broken between words.
+  /// A comment on lines of its own, broken between words.
   void prose(const std::string& text) {
     if (all_) heading(text);
   }
@@ -100,14 +100,14 @@ class Page {
   std::vector<std::pair<std::string, std::string>> block_;
 };
 
-/// A geometric start with the example values of its keys, and the parameters that go with them.
+/// A geometric start with example values of its keys, and the parameters of this example.
 struct StartExample {
   const StartInfo* info;
   Texts orbit;
   Texts parameters;
 };
 
-/// What the problem declares, with the parameters that go with it.
+/// The example that the problem declares, with its parameters.
 StartExample example_of(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
   const bool own = !info.example_parameters.empty();
   return {&info, info.example, own ? complete(problem.info, info.example_parameters) : parameters};
@@ -125,7 +125,7 @@ bool derives(const StartExample& start, const std::string& parameter) {
   return std::find(derived.begin(), derived.end(), parameter) != derived.end();
 }
 
-/// How the parameters of a start differ from those that are active: "with k = -1, without alpha".
+/// The differences between the parameters of a start and the active ones: "with k = -1, without alpha".
 std::string difference(const StartExample& start, const Texts& active) {
   std::string with;
   std::string without;
@@ -152,7 +152,7 @@ class TemplateWriter {
   }
 
   std::string write() {
-    page_.prose("A scenario for hamflow run. hamflow show " + info_.name + " says the same in other words.");
+    page_.prose("A scenario for hamflow run. hamflow show " + info_.name + " describes the problem.");
     page_.heading(info_.formula);
     page_.prose("Source: " + info_.reference);
     page_.prose(
@@ -198,7 +198,7 @@ class TemplateWriter {
     page_.section("problem");
     page_.line("name = \"" + info_.name + "\"");
     for (const auto& [key, value] : info_.variant) {
-      if (find_option(info_.keys, key) != nullptr) continue;  // follows with the other texts
+      if (find_option(info_.keys, key) != nullptr) continue;  // written below with the other keys
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {
         for (const auto& [other_key, other] : entry.info.variant) {
@@ -248,7 +248,7 @@ class TemplateWriter {
 
   void write_starts() {
     if (!info_.start_key.empty() && !starts_.empty()) {
-      page_.prose("The start: a state, as here, or in its place a numbered case with exactly its keys:");
+      page_.prose("The start is a state, as here, or a numbered case with exactly its keys:");
       for (const StartExample& start : starts_) {
         std::string keys = info_.start_key + " = " + std::to_string(start.info - info_.starts.data() + 1);
         for (const std::string& key : start.info->keys) keys += "; " + key + " = " + start.orbit.at(key);
@@ -256,7 +256,8 @@ class TemplateWriter {
         page_.prose("  " + keys + ": " + start.info->meaning + (changes.empty() ? "" : " (" + changes + ")"));
       }
     } else if (!info_.starts.empty()) {
-      page_.prose("The start, exactly one of these; in an orbit, direction = -1 turns it round:");
+      page_.prose(
+          "The start: choose exactly one of these. In an orbit, direction = -1 reverses the sense of rotation:");
     } else {
       page_.prose("The start:");
     }
@@ -279,7 +280,7 @@ class TemplateWriter {
     if (!info_.frame.name.empty()) write_option(info_.frame, false);
     write_walls();
     if (info_.two_bodies) {
-      page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
+      page_.prose("Or two bodies in space, which are reduced to the plane; leave out mass, which follows from them:");
       page_.off("bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },", "");
       page_.off("          { mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]", "");
     }
@@ -288,8 +289,8 @@ class TemplateWriter {
   void write_state() {
     constexpr std::size_t longest = 12;
     std::string comment = "q = [" + joined(info_.coordinates) +
-                          "] with canonical momenta p, or { q, v } with velocities; energy = E "
-                          "beside one component \"+\" or \"-\": the largest, the smallest root of H = E";
+                          "] with canonical momenta p, or { q, v } with velocities; with energy = E one component of p "
+                          "or v is \"+\" or \"-\", the largest or the smallest root of H = E";
     std::string q;
     std::string p;
     if (!example_.q.empty()) {
@@ -300,7 +301,7 @@ class TemplateWriter {
       p = toml_numbers(info_.default_p);
     }
     if (!info_.default_q.empty())
-      comment += "; default: " + std::string(info_.default_q.size() <= longest ? "this" : "the problem's own");
+      comment += "; default: " + std::string(info_.default_q.size() <= longest ? "this" : "declared by the problem");
     if (q.empty()) {
       page_.off("initial = { q = [...], p = [...] }", comment);
     } else if (active_ != nullptr) {
@@ -313,14 +314,14 @@ class TemplateWriter {
   void write_walls() {
     const WallKeys& keys = wall_keys();
     const bool fixed = !info_.walls.empty();
-    if (!fixed && !problem_.constraint_form.empty()) return;  // a wall would throw the motion off its constraints
+    if (!fixed && !problem_.constraint_form.empty()) return;  // walls and constraints exclude each other
     if (!fixed) {
       const double start = first_of_start();
       const double min = start > -1 ? -1 : std::floor(start) - 1;
       const double max = start < 1 ? 1 : std::ceil(start) + 1;
       page_.off(keys.walls.name + " = [{ " + keys.coordinate.name + " = \"" + first_coordinate() + "\", " +
                     keys.min.name + " = " + shortest(min) + ", " + keys.max.name + " = " + shortest(max) + " }]",
-                "hard walls, or soft ones; either end of a hard one may be left out");
+                "hard or soft walls; a hard wall needs only one of min and max");
     }
     write_option(keys.wall_rule, fixed);
     write_option(keys.strength, false);
@@ -335,7 +336,7 @@ class TemplateWriter {
       const bool meets_walls_twice = !info_.walls.empty() && describe(spec).carries_copy;
       if (problem_.accepts(spec) && !meets_walls_twice) names.push_back(entry.name);
     }
-    page_.prose("Allowed here: " + joined(names) + ". More about one: hamflow show NAME");
+    page_.prose("Allowed methods: " + joined(names) + ". hamflow show NAME describes one.");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);
     const MethodFamily* const chosen = find_method(method_.name).family;
     for (OptionInfo option : chosen->options) {
@@ -349,7 +350,7 @@ class TemplateWriter {
     }
   }
 
-  /// As comments; what stands above already is only named, since many methods share their options.
+  /// Writes the options of other methods as comments. Options that were explained above are only named.
   void write_options_of_others(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
     const bool allowed =
         std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) != allowed_here.end();
@@ -371,7 +372,7 @@ class TemplateWriter {
     set ? page_.line(code, comment_on(option)) : page_.off(code, comment_on(option));
   }
 
-  /// [run] as declared, with the numbers of the example, and without what this problem or its method refuses.
+  /// Writes [run] as declared, with the numbers of the example, without keys that this problem or its method refuses.
   void write_run() {
     page_.section("run");
     const RunKeys& keys = run_keys();

@@ -1,4 +1,4 @@
-// [problem]: walls on coordinates, and what does not go with them.
+// Reads the walls in [problem] and refuses settings that do not work with them.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace hamflow {
 
 namespace {
 
-/// The names of coordinates, as `show` lists them; of bodies numbers alone, q1, q2, ..., too.
+/// The names of coordinates, as `show` lists them; for bodies the numbered names q1, q2, ..., too.
 std::vector<std::vector<std::string>> coordinate_names(const ProblemEntry& problem, const Texts& parameters,
                                                        std::size_t size) {
   std::vector<std::vector<std::string>> names{state_names(problem, parameters, size).q};
@@ -43,8 +43,7 @@ std::optional<Walls::Interval> read_interval(TomlTable& table, const std::vector
     return std::nullopt;
   }
   if (both && (!min || !max)) {
-    table.missing((min ? keys.max : keys.min).name,
-                  "a number: a soft wall is a potential between both ends of an interval");
+    table.missing((min ? keys.max : keys.min).name, "a number, because soft walls need both ends of the interval");
     return std::nullopt;
   }
   if (min && max && !(number_value(*min) < number_value(*max))) {
@@ -71,18 +70,18 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const std::size_t before = complaints_.size();
   if (!fixed && !scenario_.problem->constraint_form.empty() && table.has_any(keys.walls.name)) {
     table.complain(keys.walls.name,
-                   "found walls beside constraints, which a momentum that is turned round would leave, and whose "
-                   "multipliers know no soft walls; allowed in coordinates without constraints");
+                   "found walls together with constraints, which are not supported; allowed in coordinates without "
+                   "constraints");
     return;
   }
   if (fixed && table.has(keys.walls.name)) {
     table.complain(keys.walls.name,
-                   "found walls, but those of " + info.name + " are fixed; allowed " + keys.wall_rule.name + " alone");
+                   "found walls, but the walls of " + info.name + " are fixed; allowed only " + keys.wall_rule.name);
   }
   if (!fixed && !table.has_any(keys.walls.name)) {
-    const bool taken_away = table.has(keys.walls.name);  // by an empty list: what was said of them stays without use
+    const bool taken_away = table.has(keys.walls.name);  // an empty list removes the walls; their keys are not used
     for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) {
-      // exponents of other kinds of walls may be keys of their own
+      // the exponent of a container has another key
       if (taken_away) {
         (void)table.text(*key);
       } else if (table.has(key->name)) {
@@ -110,7 +109,7 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const std::size_t size =
       scenario_.problem->dimension > 0 ? scenario_.problem->dimension : scenario_.request.start.q.size();
   if (complaints_.size() != before || size == 0) return;
-  if (!scenario_.problem->refused_size(parameters, size).empty()) return;  // complained about with the start
+  if (!scenario_.problem->refused_size(parameters, size).empty()) return;  // complained about elsewhere
   const auto names = coordinate_names(*scenario_.problem, parameters, size);
   for (const FixedWall& wall : info.walls) {
     walls.intervals.push_back({names.front().at(wall.coordinate), wall.coordinate, wall.min, wall.max});
@@ -133,8 +132,8 @@ void ScenarioReader::read_walls(TomlTable& table) {
   }
   if (scenario_.bodies) {
     table.complain(keys.walls.name,
-                   "found walls beside bodies; allowed with initial or orbit: bodies are shown where "
-                   "they are in space");
+                   "found walls together with bodies; allowed with initial or orbit, because bodies are reduced to "
+                   "other coordinates");
   }
   if (complaints_.size() != before) return;
   scenario_.request.walls = walls;
@@ -142,8 +141,8 @@ void ScenarioReader::read_walls(TomlTable& table) {
 }
 
 namespace {
-/// The rules among `rules` that this problem takes, in quotes, each with ", " behind it: walls of a box are hard, a
-/// soft wall has two ends, and on the lattice no step is cut at a bounce.
+/// The rules among `rules` that this problem allows, in quotes, separated by ", ". Walls of a box are hard, soft walls
+/// need two ends, and on the lattice steps cannot be cut at a bounce.
 std::string rules_taken(const Request& request, const ProblemEntry& problem, const Walls& walls,
                         const std::vector<WallRule>& rules) {
   const bool box = problem.container == ContainerNames::box;
@@ -165,27 +164,27 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
     const std::string soft = rules_taken(request, problem, *walls, {WallRule::soft});
-    return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : ", or ") +
-           "step_control = \"fixed\"";
+    return "with steps of varying length, which cannot be cut at a wall; allowed " + soft +
+           (soft.empty() ? "" : ", or ") + "step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {
-    return "with " + info.name + ", which carries a second copy of the state that meets walls elsewhere; allowed " +
+    return "with " + info.name + ", whose second copy of the state meets walls at other times; allowed " +
            or_fitting_method(rules_taken(request, problem, *walls, {WallRule::soft}), "another method",
                              {"stv4", "cg", "rk4"}, &problem, request.arithmetic);
   }
   if (walls->rule == WallRule::event && request.arithmetic == "lattice") {
-    return "on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"";
+    return "on the lattice, where a part of a step cannot be undone exactly; allowed \"mirror\", \"reject\"";
   }
   if (walls->rule != WallRule::mirror) return {};
   if (!problem.constraint_form.empty())
-    return "with constraints, between which no drift is free; allowed \"event\", \"reject\"";
+    return "with constraints, where drifts are not free; allowed \"event\", \"reject\"";
   const bool drifts = find_method(request.method.name).family->not_on_lattice.empty();
   if (!drifts) {
-    return "with " + info.name + ", which has no drifts to be reflected; allowed " +
+    return "with " + info.name + ", which has no drifts that could be reflected; allowed " +
            or_fitting_method(rules_taken(request, problem, *walls, {WallRule::event, WallRule::reject}),
                              "a splitting method", {"stv4"}, &problem, request.arithmetic);
   }
-  const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
+  const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // this method needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {
     if (problem.particles) break;  // each particle has its mass
     std::vector<double> p(start_q.size(), 0.0);
@@ -197,7 +196,7 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
              (quadratic ? " depends on other momenta too"
                         : " is not a "
                           "constant times its momentum") +
-             ": a reflected drift would not be one of H; allowed \"event\", \"reject\"";
+             ", so a reflected drift would not solve the equations of H; allowed \"event\", \"reject\"";
     }
   }
   return {};
@@ -208,7 +207,7 @@ std::string rule_of_walls(const Request& request) {
   return walls ? wall_rules()[static_cast<std::size_t>(walls->rule)] : std::string();
 }
 
-/// Whether it is the potential of soft walls that keeps the method from this problem, which is then complained about.
+/// Complains if the method is refused only because of the potential of soft walls. Returns true if it complained.
 bool ScenarioReader::complain_of_soft_walls() {
   const Request& request = scenario_.request;
   const auto& walls = request.walls;
@@ -221,13 +220,13 @@ bool ScenarioReader::complain_of_soft_walls() {
   root_.table("problem").complain(
       wall_keys().wall_rule.name,
       "found \"" + rule_of_walls(request) + "\" with " + request.method.name +
-          ", which takes no potential of a wall; allowed " +
+          ", which does not allow the potential of a wall; allowed " +
           or_fitting_method(rules_taken(request, *scenario_.problem, *walls, hard), "another method",
                             {"cg", "stv4", "rk4"}, scenario_.problem.get(), request.arithmetic));
   return true;
 }
 
-/// What only shows beside method and arithmetic.
+/// Checks that need the method and the arithmetic.
 void ScenarioReader::check_walls() {
   const Request& request = scenario_.request;
   const auto& walls = request.walls;
@@ -256,10 +255,10 @@ void ScenarioReader::check_walls() {
       if (text.empty()) continue;
       const double at = number_value(text);
       if (std::abs(at) > 0x1p51 * unit) {
-        int power = 0;  // of the finest unit that is coarse enough for every wall
+        int power = 0;  // exponent of the finest unit that is coarse enough for every wall
         if (std::frexp(furthest, &power) == 0.5) --power;
         refuse("with a wall at " + text + " and a unit of " + shortest(unit) +
-               "; allowed walls within 2^51 units, behind which positions are still exact in double, as with "
+               "; allowed walls within 2^51 units, so that positions behind them are exact in double, e.g. "
                "run.lattice = { position = \"2^" +
                std::to_string(power - 51) + "\" }");
         return;
@@ -268,12 +267,13 @@ void ScenarioReader::check_walls() {
       if (moved == 0) continue;
       most = std::max(most, std::abs(moved));
       notes.push_back("the wall of " + wall.coordinate + " at " + text + " is moved by " + shortest(moved) +
-                      ", to half a unit of the lattice");
+                      " to a multiple of half a unit of the lattice");
     }
   }
   if (notes.empty()) return;
-  if (scenario_.problem->particles) {  // the same for each of its particles
-    notes = {"the walls of the box are moved by up to " + shortest(most) + ", to half a unit of the lattice"};
+  if (scenario_.problem->particles) {  // one note, since all particles have the same walls
+    notes = {"the walls of the box are moved by up to " + shortest(most) +
+             " to multiples of half a unit of the lattice"};
   }
   scenario_.notes.insert(scenario_.notes.end(), notes.begin(), notes.end());
 }

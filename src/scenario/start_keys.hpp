@@ -1,4 +1,4 @@
-// Keys of a start, whose names the problems declare.
+// Keys of a start. The problems declare their names.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// A number of a start, which has no range of its own: its conditions are judged together.
+/// A number of a start. It has no range, because the conditions on all numbers of a start are checked together.
 inline OptionInfo number_key(const std::string& name) { return {.name = name}; }
 inline OptionInfo kind_key(const std::vector<std::string>& kinds) {
   return {.name = "kind", .type = OptionType::word, .words = kinds};
@@ -17,7 +17,7 @@ inline OptionInfo kind_key(const std::vector<std::string>& kinds) {
 inline OptionInfo list_key(const std::string& name, std::size_t length) {
   return {.name = name, .type = OptionType::list, .length = length, .required = true};
 }
-/// p or v of a state, of which one component may be left to the energy.
+/// p or v of a state. One component may be "+" or "-", so that it is computed from the energy.
 inline OptionInfo open_list_key(const std::string& name, std::size_t length) {
   return {.name = name, .type = OptionType::list, .length = length, .words = {largest_root, smallest_root}};
 }

@@ -7,7 +7,7 @@ namespace hamflow {
 
 namespace {
 
-/// Walks over a text, strings and comments as wholes.
+/// Scans a text and skips strings and comments.
 class Walk {
  public:
   explicit Walk(std::string_view text) : text_(text) {}
@@ -34,7 +34,7 @@ class Walk {
   }
 
  private:
-  /// To the last quote of the string, or to the end of a text in which it has none: the parser complains.
+  /// Moves to the last quote of the string, or to the end of the text if there is none; then the parser complains.
   void skip_string(char quote) {
     const std::string three(3, quote);
     if (text_.substr(at_, 3) == three) {

@@ -1,5 +1,5 @@
-// How deep a TOML text nests, before it is parsed: toml++ walks and destroys nested tables by recursion, and a key of
-// thousands of parts, a.a.a..., is as many tables in each other, more than the stack holds.
+// Limits the nesting of a TOML text before it is parsed. toml++ visits and destroys nested tables recursively, and a
+// key of thousands of parts, a.a.a..., makes as many nested tables, which overflow the stack.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@ namespace hamflow {
 constexpr int most_key_parts = 16;
 constexpr int most_nested_brackets = 32;
 
-/// Where a text is nested too deep, and how.
+/// The place where a text is nested too deeply, with a message.
 struct TooDeep {
   int line = 1;
   int column = 1;
   std::string message;  // "found ...; allowed ..."
 };
 
-/// The first key with too many parts, or the first bracket within too many others.
+/// The first key with too many parts, or the first bracket that is nested too deeply; nullopt if there is none.
 std::optional<TooDeep> too_deep(const std::string& toml);
 
 }  // namespace hamflow

@@ -15,14 +15,14 @@ namespace hamflow {
 
 namespace {
 
-/// A name, or an index of an array.
+/// A part of a path: a name, or an index of an array.
 struct Part {
   std::string name;
   std::size_t index = 0;
   bool is_index = false;
 };
 
-/// The parts of a path; empty where it is none.
+/// The parts of a path; empty if the text is not a path.
 std::vector<Part> parts_of(const std::string& path) {
   std::vector<Part> parts;
   std::size_t at = 0;
@@ -48,7 +48,7 @@ std::vector<Part> parts_of(const std::string& path) {
   return parts;
 }
 
-/// Where the last part of a path is, or what is wrong with the path.
+/// The node that holds the last part of a path, or the error in the path.
 struct Place {
   toml::node* parent = nullptr;  // an array that has the last index, or a table
   std::string wrong{};
@@ -63,7 +63,7 @@ Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) 
     if (part.is_index) {
       const toml::array* const array = at->as_array();
       if (array == nullptr) {
-        return {nullptr, "found " + walked + " to be no array; allowed an index of an array that is there"};
+        return {nullptr, walked + " is not an array; allowed an index of an existing array"};
       }
       if (array->empty()) return {nullptr, walked + " is an empty array; allowed " + walked + " = [...] as a whole"};
       if (part.index >= array->size()) {
@@ -83,16 +83,16 @@ Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) 
     walked += (walked.empty() ? "" : ".") + part.name;
     if (!table->contains(part.name)) {
       if (parts[i + 1].is_index || !make_tables) {
-        return {nullptr, "found no array " + walked + "; allowed an index of an array that is there"};
+        return {nullptr, "the array " + walked + " does not exist; allowed an index of an existing array"};
       }
       table->insert(part.name, toml::table{});
     }
     at = table->get(part.name);
   }
-  return {nullptr, "found no path"};
+  return {nullptr, "not a path"};
 }
 
-/// Keys of which a scenario has at most one.
+/// Groups of keys of which a scenario has at most one.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& exclusive_keys() {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> all{
       {run_table, {run_keys().steps.name, run_keys().t_end.name}},
@@ -114,7 +114,8 @@ bool touched(const toml::node& node) {
 
 namespace {
 
-/// A decimal with a point and digits on both sides of it, which is the same number in TOML; an exponent may follow.
+/// Whether a text is a decimal with digits on both sides of a point and optionally an exponent. TOML reads it as the
+/// same number.
 bool is_plain_decimal(const std::string& text) {
   std::size_t at = text.starts_with('-') ? 1 : 0;
   const auto digits = [&] {
@@ -138,7 +139,7 @@ bool is_plain_decimal(const std::string& text) {
 
 toml::table parsed_value(const std::string& text) {
   toml::table value;
-  if (is_plain_decimal(text)) {  // as the numbers of a range are: a parser takes ten times as long
+  if (is_plain_decimal(text)) {  // e.g. the numbers of a range; the parser would take ten times as long
     const double number = std::strtod(text.c_str(), nullptr);
     if (std::isfinite(number)) {
       value.insert_or_assign("value", number);
@@ -150,7 +151,7 @@ toml::table parsed_value(const std::string& text) {
   } catch (const toml::parse_error&) {
     value.clear();
   }
-  if (value.size() != 1) {  // not a TOML value: a string
+  if (value.size() != 1) {  // not a TOML value, so it is a string
     value.clear();
     value.insert_or_assign("value", text);
   }
@@ -159,7 +160,7 @@ toml::table parsed_value(const std::string& text) {
 
 std::string assign(toml::table& root, const std::string& path, const toml::node& value) {
   const std::vector<Part> parts = parts_of(path);
-  if (parts.empty()) return "found no path; allowed names with dots between, and [0], [1], ... for entries of an array";
+  if (parts.empty()) return "not a path; allowed names separated by dots, and [0], [1], ... for entries of an array";
   if (parts.size() > most_key_parts) {
     return "found a path of " + std::to_string(parts.size()) + " parts; allowed at most " +
            std::to_string(most_key_parts);
@@ -208,7 +209,7 @@ std::pair<std::string, std::string> parsed_set(const std::string& set) {
 
 std::pair<std::string, std::string> apply_set(toml::table& root, const std::string& set) {
   const auto [path, text] = parsed_set(set);
-  if (path.empty()) return {set, "found no PATH=VALUE; allowed e.g. " + set_option(run_path(run_keys().dt), "0.05")};
+  if (path.empty()) return {set, "not PATH=VALUE; allowed e.g. " + set_option(run_path(run_keys().dt), "0.05")};
   return {path, assign(root, path, *parsed_value(text).get("value"))};
 }
 

@@ -1,4 +1,4 @@
-// A TOML table under examination: typed look-ups that collect complaints instead of stopping at the first.
+// Typed access to a TOML table that collects complaints instead of stopping at the first.
 #pragma once
 
 #include <toml++/toml.h>
@@ -17,22 +17,21 @@ namespace hamflow {
 
 class TomlTable {
  public:
-  /// @param table may be null: every key is then missing   @param path dotted, empty for the root
+  /// @param table may be null: then every key is missing   @param path dotted, empty for the root
   TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints);
 
   bool exists() const { return table_ != nullptr; }
-  /// The table itself; an empty one where there is none.
+  /// The table itself; an empty one if there is none.
   const toml::table& node() const;
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
 
-  /// Whether there is a value, and no empty list.
+  /// Whether there is a value other than an empty list.
   bool has_any(const std::string& key) const;
 
-  // Each look-up makes the key known; finish() complains about the others. A value that the option does not accept is
-  // complained about and then counts as not given. A required one that is missing is complained about too.
-
-  /// The value as the text that the declared option has elsewhere: "0.1", "[1, 2]", "auto", "true".
-  /// @param behind what is allowed, in messages: e.g. " (the mass)"
+  // Each access makes the key known; finish() complains about the others. A value that the option does not accept
+  // causes a complaint and is then treated as missing. A missing required value causes a complaint, too.
+  /// The value as the text of the option: "0.1", "[1, 2]", "auto", "true".
+  /// @param behind appended to the allowed values in messages: e.g. " (the mass)"
   std::optional<std::string> text(const OptionInfo& option, const std::string& behind = "");
   std::optional<double> number(const OptionInfo& option);
   std::optional<std::int64_t> whole(const OptionInfo& option);
@@ -41,14 +40,14 @@ class TomlTable {
   /// The entries of a list of words; a single string counts as a list of one.
   std::optional<std::vector<std::string>> words(const OptionInfo& option);
   std::optional<bool> yes_no(const OptionInfo& option);
-  /// An array of so many tables; 0: of any number.
+  /// An array of `count` tables; 0: of any number.
   std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
   TomlTable table(const std::string& key);
-  /// The keys that are there, in the order of the file.
+  /// The keys of the table, in the order of the file.
   std::vector<std::string> keys() const;
-  /// Those that no look-up has made known.
+  /// The keys that no access has made known.
   std::vector<std::string> unknown_keys() const;
-  /// The entries of a list of texts that the user chooses; each is not empty.
+  /// The entries of a list of free texts; none is empty.
   std::optional<std::vector<std::string>> texts(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
   bool knows(const std::string& key) const { return std::find(known_.begin(), known_.end(), key) != known_.end(); }
@@ -56,23 +55,23 @@ class TomlTable {
   /// Whether the value came from the command line and not from the file.
   bool is_set(const std::string& key) const;
 
-  /// Complains about every key that no look-up has made known, and names the nearest that is.
-  /// @param problem,method where they are known: what stands in other tables with them, alone is proposed
+  /// Complains about every key that no access has made known, and names the nearest known one.
+  /// @param problem,method if they are known, only keys that other tables have with them are suggested
   void finish(const ProblemEntry* problem = nullptr, const std::string& method = "");
 
-  /// The text of a string; none where the value is another, which is not complained about.
+  /// The text of a string; nullopt, without a complaint, if the value is not a string.
   std::optional<std::string> plain_string(const std::string& key);
   void missing(const std::string& key, const std::string& allowed);
-  /// A complaint at the key's value, or at the table when the key is absent. Where any of that was set from outside it
-  /// is no fault of the file.
+  /// Complains at the value of the key, or at the table if the key is missing. If a part of it was set from outside,
+  /// the complaint has no line of the file.
   void complain(const std::string& key, const std::string& message);
-  /// The same at a part of a value: "invariants.L", "coordinates[1]".
+  /// Complains at a part of a value: "invariants.L", "coordinates[1]".
   void complain_in(const std::string& part, const std::string& message);
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string found(const std::string& key) const;
 
  private:
-  /// "; allowed ...", made only for a complaint: a sweep reads hundreds of thousands of scenarios.
+  /// Makes "; allowed ..." only for a complaint, since a sweep reads hundreds of thousands of scenarios.
   using Allowed = std::function<std::string()>;
 
   const toml::node* find(const std::string& key);

@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// Keys as they stood in the file; new ones behind them.
+/// The keys in the order of the file, followed by new ones.
 std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table) {
   std::vector<std::pair<toml::source_position, std::pair<std::string, const toml::node*>>> placed;
   for (const auto& [key, node] : table) {
@@ -51,7 +51,7 @@ std::string key_text(const std::string& key) {
   return bare ? key : quoted(key);
 }
 
-/// On one line. The library's own printer would write 0.1 as 0.10000000000000001.
+/// A value on one line. The printer of toml++ would write 0.1 as 0.10000000000000001.
 std::string value_text(const toml::node& node) {
   std::string text;
   if (const auto* table = node.as_table()) {
@@ -87,7 +87,7 @@ std::string toml_text(const toml::table& root) {
     const toml::node* node = root.get(name);
     if (node == nullptr) continue;
     const toml::table* section = node->as_table();
-    if (section == nullptr) {  // not in a scenario that can be read
+    if (section == nullptr) {  // does not occur in a valid scenario
       out += key_text(name) + " = " + value_text(*node) + "\n";
       continue;
     }

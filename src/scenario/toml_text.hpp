@@ -1,4 +1,4 @@
-// A document written as TOML.
+// Writes a document as TOML.
 #pragma once
 
 #include <toml++/toml.h>
@@ -7,8 +7,9 @@
 
 namespace hamflow {
 
-/// Reads back as the same document. The tables of a scenario stand in its usual order, keys as they stood in their
-/// file, what was set from outside behind them. Comments are lost. A number has as few digits as read back the same.
+/// TOML that reads back as the same document. The tables have the usual order of a scenario, the keys the order of the
+/// file, followed by keys that were set from outside. Comments are lost. Numbers have the fewest digits that read back
+/// exactly.
 std::string toml_text(const toml::table& root);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// Keys of a scenario that do nothing where it is not run: a comparison, a reversal, a session.
+// Notes about keys of a scenario that a comparison, a reversal or a session does not use.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace hamflow {
 
 /// Notes on unused measurements, such as "run.section is not used: WHY"; empty if all are used.
 std::vector<std::string> unused_measures(const Scenario& scenario, const std::string& why);
-/// The same of output.figures.
+/// The same for output.figures.
 std::vector<std::string> unused_figures(const Scenario& scenario, const std::string& why);
 
 }  // namespace hamflow

@@ -16,10 +16,10 @@ namespace {
 toml::table table_of(const Value::Table& from, int depth);
 toml::array list_of(const Value::List& from, int depth);
 
-/// Calls put with the value as TOML has it.
+/// Calls put with the value as a TOML value.
 template <class Put>
 void give(const Value& value, int depth, const Put& put) {
-  if (depth > most_nested_brackets) throw Error("the scenario has lists or tables that are nested too deep");
+  if (depth > most_nested_brackets) throw Error("the scenario has lists or tables that are nested too deeply");
   std::visit(
       [&]<class T>(const T& x) {
         if constexpr (std::is_same_v<T, Value::List>) {
@@ -60,14 +60,14 @@ ChosenProblem read_problem_tree(const Value::Table& problem) {
   const auto is_given = [&](const std::string& key) {
     return std::any_of(problem.begin(), problem.end(), [&](const auto& entry) { return entry.first == key; });
   };
-  std::erase_if(complaints, [&](const Complaint& complaint) {  // the start is not asked for
+  std::erase_if(complaints, [&](const Complaint& complaint) {  // the start is not needed here
     for (const std::string key : {"initial", "orbit", "bodies", "case"}) {
       if (complaint.key.starts_with("problem." + key) && !is_given(key)) return true;
     }
     return false;
   });
   if (!complaints.empty()) throw Rejection(std::move(complaints));
-  if (scenario.problem == nullptr) throw Error("the problem cannot be chosen without more of its keys");
+  if (scenario.problem == nullptr) throw Error("the keys of [problem] are not sufficient to choose a problem");
   return {scenario.problem, scenario.request.variant, scenario.request.parameters};
 }
 

@@ -1,4 +1,4 @@
-// What walls demand of a method, for all that take another one than the scenario's.
+// Checks whether a method works with walls, also for code that uses another method than the scenario's.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace hamflow {
 
-/// Why the walls of a request cannot be met by its method and arithmetic, and what is allowed; empty where they can, or
-/// where there are none.
+/// Why the walls of a request do not work with its method and arithmetic, and what is allowed; empty if they do, or if
+/// there are no walls.
 std::string refused_by_walls(const Request& request, const ProblemEntry& problem, const std::vector<double>& start_q);
 /// "event", ...; empty without walls.
 std::string rule_of_walls(const Request& request);

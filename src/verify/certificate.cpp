@@ -17,10 +17,10 @@
 namespace hamflow {
 
 namespace {
-constexpr std::size_t most_watched = 5000;  // coordinates whose turns are counted: of each 270 bytes are kept
-constexpr std::uint64_t seed = 1686;        // any number: the places of the samples are part of the result
+constexpr std::size_t most_watched = 5000;  // coordinates whose turns are counted, with 270 bytes for each
+constexpr std::uint64_t seed = 1686;        // arbitrary but fixed, because the places of the samples affect the result
 
-/// In the first half of the k-th block, where it still is when two blocks become one.
+/// A place in the first half of the k-th block, which is still in the first half after two blocks are joined.
 std::int64_t place(std::int64_t k, std::int64_t block_steps) {
   const std::int64_t room = std::max<std::int64_t>(1, block_steps / 2);
   if (k == 0) return 0;
@@ -28,7 +28,7 @@ std::int64_t place(std::int64_t k, std::int64_t block_steps) {
   return k * block_steps + static_cast<std::int64_t>(random % static_cast<std::uint64_t>(room));
 }
 
-/// Every second one, from the first.
+/// Keeps every second element, starting with the first.
 template <class T>
 void thin(std::vector<T>& all) {
   for (std::size_t i = 1; 2 * i < all.size(); ++i) all[i] = std::move(all[2 * i]);
@@ -114,8 +114,8 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
 }
 
 namespace {
-/// The sum of |x dI/dx| over all coordinates and momenta x, for each invariant I, or its largest component, at the
-/// start or the end of a run, where it is more: one rounding of each x moves I by so many roundings. Empty of systems
+/// For each invariant I (its largest component) the sum of |x dI/dx| over all coordinates and momenta x, at the start
+/// or the end of a run, whichever is larger. One rounding of each x changes I by so many roundings. Empty for systems
 /// with many coordinates.
 std::vector<double> sizes_of_invariants(const Request& request, const Frame& end) {
   constexpr std::size_t most_coordinates = 64;
@@ -157,26 +157,26 @@ std::vector<double> sizes_of_invariants(const Request& request, const Frame& end
       sizes.resize(here.size());
       for (std::size_t i = 0; i < here.size(); ++i) sizes[i] = std::max(sizes[i], here[i]);
     }
-  } catch (const Error&) {  // a state beside the run's that is refused: nothing is known
+  } catch (const Error&) {  // a displaced state is not allowed, so the sizes are unknown
     return {};
   }
   return sizes;
 }
 }  // namespace
 
-/// Each kick and each drift rounds a position or a momentum once, by half a unit at most, which moves an invariant with
-/// terms of size T by about epsilon T; n roundings walk sqrt(n) of them, and reading the invariant rounds a few times.
-/// 16 of each: the largest of a walk over the whole run is rarely above four standard deviations, and two coordinates
-/// of a body, or two bodies, are rounded in every action. The centre of mass takes the walk of the momentum along for
-/// the time of the run.
-/// Angular momentum adds up the roundings of all bodies, which know nothing of each other: a kick changes it by |q|
-/// |dp| of norms and not of sums. Of 121 particles the sum of sizes is above by 13, in which a drift of the method
-/// would hide. What is called conserved is below four standard deviations of that walk: a rounding has half a unit at
-/// most, hence 0.29 units, and for q and p together four of them are 1.6 sqrt(n), for which stands 2 times two units.
-/// Reading it adds up as many terms as there are coordinates, at most its own size each time. Between that and the sum
-/// of sizes it is not known whether rounding or the method did it: stages and iterations round more often than once.
-/// Nor is it where n roundings to one side could do it, a unit each: a body that flies freely is moved by the same
-/// number in every step, and is rounded to the same side until its exponent changes.
+/// Each kick and each drift rounds a position or a momentum once, by at most half a unit, which changes an invariant
+/// with terms of size T by about epsilon T. n roundings make a walk of sqrt(n) such changes, and evaluating the
+/// invariant adds a few roundings. The bound is 16 of each: the maximum of a walk over the whole run is rarely above
+/// four standard deviations, and two coordinates of a body, or two bodies, are rounded in every operation. The centre
+/// of mass also integrates the walk of the momentum over the time of the run. Angular momentum sums the roundings of
+/// all bodies, which are independent: a kick changes it by |q| |dp| of norms, not of sums. For 121 particles the sum of
+/// sizes is larger by a factor of 13, which could hide a drift of the method. So `conserved` means below four standard
+/// deviations of this walk: a rounding is at most half a unit, with a standard deviation of 0.29 units, and for q and p
+/// together four of them are 1.6 sqrt(n); 2 times two units are used. Evaluating it adds as many terms as there are
+/// coordinates, each at most of its own size. Between this bound and the sum of sizes it is undecided whether rounding
+/// or the method is the cause, because stages and iterations round more than once. It is also undecided if n roundings
+/// of one unit to the same side could be the cause: a free body is moved by the same number in every step, and is
+/// rounded to the same side until its exponent changes.
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request) {
   std::vector<MomentumMap> all;
@@ -187,7 +187,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
   const double walk = 16 * (1 + std::sqrt(roundings));
   const double to_one_side = std::max(1.0, roundings / walk);
   const int digits = digits_beyond_double(request.arithmetic);
-  // Bounds are made in units of rounding, which beyond double may be too small for one.
+  // Bounds are computed in units of rounding, because the rounding itself may be below the range of double.
   const double unit = digits > 0 ? 1 : epsilon;
   const auto in_arithmetic = [&](double units) {
     return digits > 0 ? times_power_of_ten(units, 1 - digits) : LongNumber(units);
@@ -227,7 +227,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         if (!problem.total_mass) break;
         const double mass = problem.total_mass(complete(problem.info, request.parameters), end.q.size());
         size = std::max(size, magnitudes[0]);
-        // Reading it adds up as many terms as there are bodies, each time rounding a sum of the whole size.
+        // Evaluating it sums as many terms as there are bodies, and each addition rounds a sum of the whole size.
         const double reading = 4 * std::sqrt(static_cast<double>(end.q.size()));
         const double most =
             (walk + reading) * q_unit * size + walk * p_unit * magnitudes[2] / mass * std::abs(end.time);
@@ -244,7 +244,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
       }
     }
     map.relative = size > 0 ? quotient(map.max_error, size) : map.max_error;
-    if (simulation.step() == 0) map.rounding.reset();  // nothing was done, which keeps nothing
+    if (simulation.step() == 0) map.rounding.reset();  // without steps nothing is known about conservation
     all.push_back(map);
   }
   return all;
@@ -252,8 +252,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
 
 namespace {
 
-/// From so many coordinates on, a run and its reversal are not in memory together: each has its own lists of
-/// neighbours.
+/// With so many coordinates a run and its reversal are not in memory at the same time, since each has neighbour lists.
 constexpr std::size_t coordinates_in_memory_once = 100'000;
 
 double roundings_of(const Simulation& simulation) {
@@ -261,7 +260,7 @@ double roundings_of(const Simulation& simulation) {
   return std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
 }
 
-/// The coordinates that have not turned back since their range doubled last, and angles that have gone round.
+/// The coordinates without a turn since their range doubled last, and angles that have made a full turn.
 std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const std::vector<Swings>& swings,
                                              std::int64_t steps_taken) {
   const std::vector<std::string>& names = problem.info.coordinates;
@@ -275,9 +274,9 @@ std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const 
   return growing;
 }
 
-/// The slowest of what has turned back. An angle that has gone round is no oscillation, whatever it did before. A
-/// momentum counts where its coordinate has not turned: that of an eccentric orbit has a peak at each pericentre that
-/// lasts too short a time to be met by every sample, and its coordinate has the same period.
+/// Finds the slowest oscillation. An angle that has made a full turn is not an oscillation. A momentum is only used if
+/// its coordinate has not turned: on an eccentric orbit the momentum has a peak at each pericentre that is too short
+/// for the samples, and the coordinate has the same period.
 void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings, std::int64_t steps_taken,
                   EnergySeries& series) {
   const std::vector<std::string>& names = problem.info.coordinates;
@@ -307,18 +306,18 @@ void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings
     if (!goes_on) series.still = (whole - static_cast<double>(last_turn)) / whole;
     return;
   }
-  series.periods = earlier;  // an orbit that widens did turn, even if not since it doubled last
+  series.periods = earlier;  // a widening orbit had turns before its range doubled last
   series.steady = false;
 }
 
-/// A method whose energy has no drift over any run: symplectic, with equal steps that are solved as well as they can
-/// be. Where the forces of many particles are cut off it may have one.
+/// Whether the energy of a method has no drift: it is symplectic, with equal steps that are solved to rounding. With
+/// forces of many particles that are cut off it may have one.
 bool keeps_an_energy(const Request& request, const ProblemEntry& problem, const MethodInfo& method) {
   return method.symplectic && takes_equal_steps(method) && !method.carries_copy && !has_hard_walls(request) &&
          request.method.options.count(tolerance_option) == 0 && !problem.particles;
 }
 
-/// Whether it has met walls at which the energy of its method walks (docs/design.md, Walls).
+/// Whether the run has bounced off walls at which the energy of the method makes a walk (docs/design.md, Walls).
 bool walks_at_walls(const Request& request, const Simulation& simulation) {
   const auto& walls = request.walls;
   if (!walls || !(walls->rule == WallRule::event || walls->rule == WallRule::reject)) return false;
@@ -327,21 +326,21 @@ bool walks_at_walls(const Request& request, const Simulation& simulation) {
          std::any_of(counts.begin(), counts.end(), [](const WallCount& wall) { return wall.bounces > 0; });
 }
 
-/// The energies less the first, and their unit.
+/// The differences of the energies from the first one, and their unit.
 std::pair<EnergySeries, std::string> series_of(const Request& request, const ProblemEntry& problem,
                                                const Simulation& simulation, const EnergyBlockState& state,
                                                const RunEnds& ends, double size) {
   EnergySeries series;
-  // Of rounding it is the scale that tells, unless terms cancel at the start: these are rounded, too.
+  // The scale determines the rounding, unless terms cancel at the start; these are rounded, too.
   const double scale = simulation.energy_scale();
   const double dt = evaluate_number<double>(request.dt);
   const double at_start =
       std::max(size > scale ? virial_per_size * size : scale, rounding_of_state(request, problem, ends, dt));
-  // Where not every coordinate is watched the ends of the run are empty.
+  // If not every coordinate is observed, the ends of the run are empty.
   const double growing =
       rounding_of_growing(request, problem, ends, growing_coordinates(problem, state.swings, simulation.step()), dt);
   const double rounded = at_start + growing;
-  series.rounding_grows = growing > at_start / 4;  // after 16 times as many steps they are most of it
+  series.rounding_grows = growing > at_start / 4;  // in a run 16 times as long this part would dominate
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
   if (!state.digits.empty()) {
@@ -373,7 +372,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   found.typically_exchanged = blocks.state().exchange.typical();
   const double scale = simulation.energy_scale();
   const RunEnds ends = ends_of(request, simulation);
-  // A constant in H changes what is concluded of it no more than the motion.
+  // The class must not depend on a constant in H, since the motion does not.
   const double exchanged = found.typically_exchanged.value_or(0);
   const bool is_motion = simulation.energy().max_error < exchanged && std::isfinite(exchanged);
   const double energy_size =
@@ -383,7 +382,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   const std::size_t size = request.start.q.size();
   if (const std::size_t watched = blocks.state().swings.size() / 2; watched > 0 && watched < size) {
     found.drift.reason +=
-        "; oscillations were looked for in " + std::to_string(watched) + " of " + std::to_string(size) + " coordinates";
+        "; oscillations were searched in " + std::to_string(watched) + " of " + std::to_string(size) + " coordinates";
   }
   found.mean_increment = times(found.drift.mean_increment, unit);
   found.mean_increment_error = times(found.drift.mean_increment_error, unit);
@@ -393,13 +392,13 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   if (found.drift.drift == DriftClass::random_walk && scale > 0) {
     const LongNumber& least = found.trend_not_excluded;
     found.drift.reason +=
-        fmt::format("; up to {} steps: a trend below {} of the scale per step is not excluded", steps_taken,
+        fmt::format("; in {} steps a trend below {} of the scale per step cannot be excluded", steps_taken,
                     least.text.empty() ? fmt::format("{:.1e}", least.value) : least.text);
   }
   LongNumber error = simulation.energy().max_error;
-  // No double is so small: as the samples saw it.
+  // The error is below the range of double, so the one of the samples is used.
   if (error.value == 0 && !blocks.state().digits.empty()) error = times(1, unit);
-  // What is 0 but for its rounding is nothing that an error could be a part of.
+  // If the scale is 0 up to rounding, there is no relative error.
   constexpr double rounding_of_zero = 0x1p-40;
   if (scale > rounding_of_zero * energy_size) {
     found.energy_level = quotient(error, scale);

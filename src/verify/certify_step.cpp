@@ -62,27 +62,28 @@ std::string why_untold(const std::vector<Vote>& votes) {
   const auto is_small = [](const Vote& vote) { return vote.error < told_from_rounding * nothing_but_rounding; };
   if (std::all_of(votes.begin(), votes.end(), is_small)) {
     return fmt::format(
-        "the error of the step, {:.1e} with h = {:.3g}, does not stand {:.0f} times above the {:.1e} that "
-        "rounding explains",
+        "the error of the step, {:.1e} with h = {:.3g}, is less than {:.0f} times the {:.1e} that rounding explains",
         last.error, last.h, told_from_rounding, nothing_but_rounding);
   }
   for (const Vote& vote : votes) {
     if (vote.is_smooth() || is_small(vote)) continue;
     return fmt::format(
-        "the errors are no smooth function of h: with h = {:.3g} the error of the step is {:.1e}, and {:.0f} "
-        "% of it changes from one h to the next",
+        "the error is not a smooth function of h: with h = {:.3g} the error of the step is {:.1e}, and {:.0f} % of it "
+        "is "
+        "noise",
         vote.h, vote.error, 100 * std::min(vote.noise, 1.0));
   }
   const auto told = std::count_if(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_told(); });
   if (told == 0) {
     return fmt::format(
-        "the step is no smooth function of q and p: its derivatives by differences are uncertain by {:.1e} "
-        "with h = {:.3g}, where the error of the step is {:.1e}",
+        "the step is not a smooth function of q and p: its derivatives by differences are uncertain by {:.1e} with "
+        "h = {:.3g}, where the error of the step is {:.1e}",
         last.rounding, last.h, last.error);
   }
   return fmt::format(
-      "only h = {:.3g}, where the error of the step is {:.1e}, tells the method from rounding; allowed two "
-      "step lengths or more",
+      "only with h = {:.3g}, where the error of the step is {:.1e}, the error is well above rounding; at least two "
+      "step "
+      "sizes are needed",
       last.h, last.error);
 }
 PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& property) {
@@ -104,7 +105,7 @@ PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& pr
   if (between != nullptr) {
     return {std::nullopt,
             fmt::format("{} undecided: a defect of {:.1e} with h = {:.3g}, more than the {:.1e} that rounding explains "
-                        "and little beside the error of the step, {:.1e}",
+                        "but much less than the error of the step, {:.1e}",
                         property, between->defect, between->h, 4 * between->rounding, between->error)};
   }
   if (kept >= 2 || is_exact) return {true, {}};
@@ -126,7 +127,7 @@ class StepExamination {
     measure_order();
     if (is_single_precision_) {
       reasons_.push_back(
-          "all numbers that the step returns are those of single precision: structure is undecided; compute in double");
+          "all numbers that the step returns are in single precision, so structure is undecided; compute in double");
       for (const std::string& name : names()) found_.preserves.emplace_back(name, std::nullopt);
     } else {
       measure_structure();
@@ -149,7 +150,7 @@ class StepExamination {
       if (!problem_.entry->accepts(request.method)) continue;
       if (auto flow = problem_.entry->step_map(request, size() / 2)) return flow;
     }
-    throw Error("single steps are not measured on " + problem_.entry->info.name);
+    throw Error("single steps cannot be measured on " + problem_.entry->info.name);
   }
 
   /// The state after the time h; without value where the motion cannot be followed.
@@ -174,10 +175,11 @@ class StepExamination {
       }
     }
     if (most >= least) return;
-    throw Error(fmt::format(
-        "the longest step, h = {:.2g}, moves the state by {:.1e} of its size; allowed {} or more: give a state "
-        "that moves, as by problem.at(q=..., p=...)",
-        20 * short_step_, most, least));
+    throw Error(
+        fmt::format("the longest step, h = {:.2g}, moves the state by {:.1e} of its size; allowed {} or more; give a "
+                    "state that moves, "
+                    "e.g. by problem.at(q=..., p=...)",
+                    20 * short_step_, most, least));
   }
 
   std::size_t size() const { return around_.unit.size(); }
@@ -271,8 +273,8 @@ class StepExamination {
     const State<double> again = stepped(around_.states[0], short_step_);
     if (std::memcmp(again.data(), first_.data(), first_.size() * sizeof(double)) == 0) return;
     throw Error(
-        "the step keeps hidden state: the same (q, p, h) gave other numbers later; allowed a step that depends on its "
-        "arguments alone");
+        "the step has hidden state: the same (q, p, h) gave different results; allowed a step that depends only on its "
+        "arguments");
   }
 
   /// The error of a step, and which part of it is no smooth function of h.
@@ -371,10 +373,11 @@ class StepExamination {
         reasons_.push_back("order: every step is exact to rounding");
         return;
       }
-      reasons_.push_back(fmt::format(
-          "order undecided: with {} step lengths the error is a smooth function of h and below the size of the "
-          "state; a slope needs {}{}",
-          points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
+      reasons_.push_back(
+          fmt::format("order undecided: only with {} step sizes the error is a smooth function of h and below the size "
+                      "of the state; a "
+                      "slope needs {}{}",
+                      points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
       return;
     }
     std::vector<std::size_t> ends;
@@ -402,7 +405,7 @@ class StepExamination {
     found_.order = best.order;
     is_power_ = false;
     reasons_.push_back(
-        fmt::format("order undecided: the errors go like h^{:.1f} and are no power of h", best.order + 1));
+        fmt::format("order undecided: the errors grow about like h^{:.1f}, but are not a power of h", best.order + 1));
   }
 
   /// Directions in units of the state: all axes, or some random ones of a large problem.
@@ -651,12 +654,12 @@ class StepExamination {
       undecided = undecided || !found;
       if (!found || *found == *claim) return;
       if (*claim) {
-        refuted.push_back(property + " is claimed, and does not hold");
+        refuted.push_back(property + " is claimed, but does not hold");
       } else if (degrees() > 1 && !is_linear()) {
-        refuted.push_back(property + " is denied, and holds on this problem");
+        refuted.push_back(property + " is denied, but holds on this problem");
       } else if (!is_linear()) {
         undecided = true;
-        reasons_.push_back(property + " is denied, and holds, as may be with one degree of freedom");
+        reasons_.push_back(property + " is denied, but holds, which may be due to the single degree of freedom");
       }
     };
     if (claims_.order) {
@@ -666,15 +669,15 @@ class StepExamination {
       if (!found_.order || !is_power_ || std::isinf(*found_.order)) {
         undecided = true;
       } else if (*found_.order < claimed - tolerance) {
-        refuted.push_back(fmt::format("order {} is claimed, {:.2f} is measured", *claims_.order, *found_.order));
+        refuted.push_back(fmt::format("order {} is claimed, but {:.2f} is measured", *claims_.order, *found_.order));
       } else if (*found_.order > claimed + tolerance && !is_linear()) {
         const std::string higher =
-            fmt::format("order {} is claimed, the higher {:.2f} is measured", *claims_.order, *found_.order);
+            fmt::format("order {} is claimed, but the higher order {:.2f} is measured", *claims_.order, *found_.order);
         if (degrees() > 1) {
           refuted.push_back(higher);
         } else {
           undecided = true;
-          reasons_.push_back(higher + ", as may be with one degree of freedom");
+          reasons_.push_back(higher + ", which may be due to the single degree of freedom");
         }
       }
     }
@@ -709,8 +712,10 @@ class StepExamination {
 }  // namespace
 
 StepCertificate certify_step(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims) {
-  if (problem.entry->walls) throw Error("found a problem with walls; allowed one without: a step is measured alone");
-  if (problem.entry->onto_constraints) throw Error("found a problem with constraints; allowed one without");
+  if (problem.entry->walls) throw Error("found a problem with walls; allowed a problem without walls");
+  if (problem.entry->onto_constraints) {
+    throw Error("found a problem with constraints; allowed a problem without constraints");
+  }
   return StepExamination(step, problem, claims).certificate();
 }
 

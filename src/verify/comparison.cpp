@@ -202,7 +202,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
   const ProblemEntry& problem = *problem_entry;
   Comparison found{asked.request.problem, asked.request.arithmetic, asked.t_end, {}, {}, false};
   found.reference.kind = "none";
-  found.reference.description = "none: the comparison was stopped before there was one";
+  found.reference.description = "none, because the comparison was stopped before it was complete";
   const bool beyond_double = digits_beyond_double(asked.request.arithmetic) > 0;
   std::vector<ComparisonJob> jobs = comparison_jobs(asked);
   ComparisonClock clock(jobs, beyond_double);

@@ -190,22 +190,22 @@ std::vector<std::string> comparison_notes(const ComparisonRequest& asked) {
   for (std::size_t m = 0; m < asked.methods.size(); ++m) {
     const MethodSpec& method = asked.methods[m];
     if (!describe(method).own_substeps) continue;
-    const std::string why = names[m] + " chooses its sub-steps by its tolerance: no dt changes them, ";
+    const std::string why = names[m] + " chooses its sub-steps by its tolerance and not by dt, so ";
     if (has_own_tolerance(method)) {
-      notes.push_back(why + "and it has one row, with the tolerance given");
+      notes.push_back(why + "it has one row, with the given tolerance");
     } else if (asked.steps.size() > 1) {
-      notes.push_back(why + "and its rows differ in the tolerance");
+      notes.push_back(why + "its rows have different tolerances");
     } else {
-      notes.push_back(why + "and its row has the default tolerance");
+      notes.push_back(why + "its row has the default tolerance");
     }
   }
-  // Many coordinates in more digits take longer than all that is compared, and nothing is seen of it meanwhile.
+  // The reference of many coordinates takes longer than all runs of the comparison, without any sign of progress.
   constexpr std::size_t many = 1000;
   const std::size_t coordinates = asked.request.start.q.size();
   if (coordinates >= many && !find_problem(asked.request)->exact) {
     notes.push_back("the reference, " + std::to_string(coordinates) + " coordinates in " +
                     reference_arithmetic(asked.request.arithmetic) +
-                    ", is what takes the time; a smaller run.steps or run.t_end, or fewer particles, shorten it");
+                    ", takes most of the time; a smaller run.steps or run.t_end, or fewer particles, make it faster");
   }
   return notes;
 }

@@ -66,7 +66,7 @@ std::string comparison_table(const Comparison& c) {
   std::string text = fmt::format("{}, t = {}, {} arithmetic\nreference: {}", c.problem, shortest(c.t_end), c.arithmetic,
                                  c.reference.description);
   if (c.reference.kind == "none") return text + "\n";
-  text += fmt::format("; uncertain by {}\nerrors: of a coordinate or momentum over its size along the motion\n\n",
+  text += fmt::format("; uncertainty {}\nerrors: relative to the size of a coordinate or momentum along the motion\n\n",
                       readable(c.reference.uncertainty)) +
           aligned(lines);
   Lines best{{"error", "fewest evaluations", "", "", "least time", "", ""}};
@@ -86,9 +86,9 @@ std::string comparison_table(const Comparison& c) {
   if (best.size() > 1) text += "\n" + aligned(best);
   if (std::any_of(c.points.begin(), c.points.end(), [](const ComparisonPoint& p) { return is_series(p); })) {
     text +=
-        "\nAn evaluation of taylor is one coefficient of its series: one pass over the operations of the gradient, "
-        "each\n"
-        "of them a sum of as many products as coefficients are there; the time shows what that takes.\n";
+        "\nAn evaluation of taylor is one coefficient of its series, which costs more than a force evaluation; "
+        "compare\n"
+        "the times.\n";
   }
   return text;
 }

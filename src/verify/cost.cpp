@@ -20,7 +20,7 @@ CostMeasurement measure_cost(const StepMap& map, const Region& region) {
   bool explicit_step = after.linear_solves == 0 && after.steps == 0;
   if (!done) {  // what was solved was solved, but steps that were not taken show nothing
     found = {unknown, unknown, unknown, unknown, explicit_step ? Finding::unclear : Finding::no, unknown};
-    found.reason = fmt::format("a step of the first {} failed", skipped + counted);
+    found.reason = fmt::format("one of the first {} steps failed", skipped + counted);
     return found;
   }
   Effort last = before;
@@ -36,7 +36,7 @@ CostMeasurement measure_cost(const StepMap& map, const Region& region) {
   found.coarse_solves = per_step(coarse_before.linear_solves, coarse_after.linear_solves);
   if (!explicit_step && coarse_after.steps < skipped + counted) {
     found.coarse_solves = unknown;
-    found.reason = fmt::format("a step of four times the region's failed, of the first {}", skipped + counted);
+    found.reason = fmt::format("one of the first {} steps with four times the step size failed", skipped + counted);
   }
   return found;
 }

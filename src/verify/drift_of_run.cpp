@@ -1,4 +1,4 @@
-// The drift of a single run, from its own blocks.
+// Classifies the drift of a single run from its blocks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// S(m), the mean square of the changes over m blocks.
+/// S(m), the mean square of changes over m blocks.
 double structure_function(const std::vector<double>& x, std::size_t lag) {
   double sum = 0;
   for (std::size_t i = 0; i + lag < x.size(); ++i) sum += (x[i + lag] - x[i]) * (x[i + lag] - x[i]);
@@ -36,7 +36,7 @@ Growth growth(const std::vector<double>& x) {
   const std::size_t blocks = x.size() - 1;
   const std::size_t longest = blocks / 2;
   std::size_t shortest = 1;
-  for (; 4 * shortest <= longest; shortest *= 2) {  // to where neighbouring increments no longer go the same way
+  for (; 4 * shortest <= longest; shortest *= 2) {  // until neighbouring increments are no longer correlated
     const double now = structure_function(x, shortest);
     if (now == 0) break;
     const double correlation = (structure_function(x, 2 * shortest) - 2 * now) / (2 * now);
@@ -79,7 +79,8 @@ Growth growth(const std::vector<double>& x) {
   return {xy / xx / 2, measured * std::sqrt(static_cast<double>(shortest) / static_cast<double>(blocks))};
 }
 
-/// P of as few ups, or as few downs, among those that changed: both tails of the binomial distribution for 1/2.
+/// The probability of so few positive, or so few negative, increments among those that are not 0: both tails of the
+/// binomial distribution for 1/2.
 double sign_test(const std::vector<double>& x) {
   int up = 0;
   int down = 0;
@@ -95,14 +96,13 @@ double sign_test(const std::vector<double>& x) {
   return std::min(1.0, 2 * tail);
 }
 
-/// The straight line through a series, and what is left of it.
+/// The straight line through a series, and statistics of the residuals.
 struct Trend {
-  double size = 0;       // the change along the line over the whole series, over the deviation of the rest
-  double rank = 0;       // Spearman's rank correlation with time: blind to how large rare excursions are
-  double roughness = 0;  // of the rest, S(1)/(2 variance): 1 for independent values, about 8/B for a walk
-  double correlation =
-      0;                 // of neighbouring increments of the rest: -1/2 for independent values, 0 for a walk, 1 smooth
-  double wandering = 0;  // of the means of eight parts of the whole
+  double size = 0;       // change along the line over the whole series, divided by the deviation of the residuals
+  double rank = 0;       // Spearman's rank correlation with time, which does not depend on the size of rare excursions
+  double roughness = 0;  // of the residuals, S(1)/(2 variance): 1 for independent values, about 8/B for a walk
+  double correlation = 0;  // of neighbouring increments of the residuals: -1/2 independent, 0 a walk, 1 smooth
+  double wandering = 0;    // of the means of eight parts, see wandering()
 };
 
 std::vector<double> ranks(const std::vector<double>& x) {
@@ -139,8 +139,8 @@ double increment_correlation(const std::vector<double>& x) {
   return now > 0 ? (structure_function(x, 2) - 2 * now) / (2 * now) : 0;
 }
 
-/// The variance between the means of eight parts of a series, over what it is for independent values: Fisher's F with 7
-/// and B - 8 degrees of freedom. A walk beneath noise shows here first.
+/// The variance between the means of eight parts of a series, divided by its value for independent values: Fisher's F
+/// with 7 and B - 8 degrees of freedom. It is the most sensitive test for a walk beneath noise.
 double wandering(const std::vector<double>& x) {
   constexpr std::size_t parts = 8;
   const std::size_t length = x.size() / parts;
@@ -181,9 +181,9 @@ Trend trend(const std::vector<double>& x) {
   return found;
 }
 
-/// Periods of the energy's own oscillation, where the blocks resolve one: its increments go the same way for a while.
-/// (A walk turns back too, but its increments know nothing of each other.) They are counted among the ranks: the peak
-/// at each pericentre of an eccentric orbit is shorter than a block, so that how high it is seen is chance.
+/// Periods of an oscillation of the energy that the blocks resolve, so that its increments are correlated. (A walk
+/// turns back, too, but its increments are not correlated.) Ranks are used, because the peak at a pericentre of an
+/// eccentric orbit is shorter than a block, so that its sampled height is random.
 std::optional<double> periods_of(const std::vector<double>& x, double correlation) {
   constexpr double resolved = 0.4;
   if (correlation < resolved) return std::nullopt;
@@ -198,23 +198,23 @@ std::optional<double> periods_of(const std::vector<double>& x, double correlatio
 constexpr double clear_trend = 3;   // of Trend::size: an oscillation of two periods has less than 2
 constexpr double clear_rank = 0.7;  //
 constexpr double rank_of_a_drift = 0.9;
-constexpr double usual_in_walks = 15;  // of trend_of_walks()
+constexpr double usual_in_walks = 15;  // limits of trend_of_walks()
 constexpr double rare_in_walks = 30;
-constexpr double no_trend = 1;               // independent values have 0.3 at most, and rare resonances 0.8
+constexpr double no_trend = 1;               // independent values have at most 0.3, rare resonances 0.8
 constexpr double no_rank = 0.3;              // 3.4/sqrt(128): four standard deviations of independent values
 constexpr double bounded_below = 0.2;        // growth exponent, or
-constexpr double bounded_below_rough = 0.3;  // where the rest is rougher than that of any walk
+constexpr double bounded_below_rough = 0.3;  // if the residuals are rougher than those of any walk
 constexpr double rougher_than_walks = 0.3;
 constexpr double walk_above = 0.35;
 constexpr double walk_below = 0.65;
 constexpr double roughest_walk = 0.2;
-constexpr double steady_means = 3;  // of F(7, B - 8), which is above once in 150 to 250
-constexpr double rare_means = 6;    // above once in 10^5: asked of an error that does not grow
+constexpr double steady_means = 3;  // of F(7, B - 8), which exceeds it once in 150 to 250 cases
+constexpr double rare_means = 6;    // exceeded once in 10^5 cases; needed for an error that does not grow
 constexpr double white = 0.25;      // correlation of a walk's increments: three standard deviations for 128
 
-/// The trend in units of what a walk, with or without noise on top, has by chance: a walk of variance w beneath noise
-/// of variance n has about sqrt(w/(w + n)), which is what 1 - roughness measures. Of 20 000 walks of 64 to 255 blocks
-/// beneath any noise, 1 in 100 came above 16, 1 in 10 000 above 30 (a walk whose rank correlation with time is above
+/// The trend relative to the trend that a walk, with or without noise, has by chance. For a walk of variance w beneath
+/// noise of variance n this is about sqrt(w/(w + n)), which 1 - roughness measures. Of 20 000 walks of 64 to 255 blocks
+/// beneath any noise, 1 in 100 was above 16 and 1 in 10 000 above 30 (a walk whose rank correlation with time is above
 /// 0.9).
 double trend_of_walks(const Trend& t) { return t.size / std::sqrt(std::max(1 - t.roughness, 0.15)); }
 
@@ -224,8 +224,7 @@ bool stays_away(const std::vector<double>& deviations, double largest) {
                      [&](double x) { return std::abs(x) > largest / 2; });
 }
 
-/// Whether a trend goes on in both halves of the run, in one direction. What a single close encounter leaves is a step,
-/// and the rest of the run is level.
+/// Whether both halves of the run have a trend in the same direction. A single close encounter only leaves a jump.
 bool goes_on_throughout(const std::vector<double>& x) {
   constexpr double least = 1.0 / 8;  // of the slope of the whole: a drift may slow down
   const auto slope = [&](std::size_t begin, std::size_t end) {
@@ -240,8 +239,8 @@ bool goes_on_throughout(const std::vector<double>& x) {
   return std::min(sign * slope(0, middle), sign * slope(middle, x.size())) > least * sign * whole;
 }
 
-/// Whether a trend contradicts what the method is: too large for roundings to one side, one in each action, and too
-/// small for a step with which nothing is kept.
+/// Whether a trend contradicts a symplectic method: it is too large for one rounding to the same side in each
+/// operation, and too small for a step size at which the method breaks down.
 bool must_turn_back(const EnergySeries& series, double largest) {
   constexpr double resolved = 1.0 / 16;
   return series.symplectic && largest > 16 * series.rounding * (1 + series.roundings) &&
@@ -253,7 +252,7 @@ struct Conclusion {
   std::string reason;
 };
 
-/// Of a number below a limit, so that its text is below the limit too.
+/// Rounds down, so that the text of a number below a limit is below the limit, too.
 double rounded_down(double x, double unit) { return std::floor(x / unit) * unit; }
 
 Conclusion undecided(std::string reason) { return {std::nullopt, std::move(reason)}; }
@@ -267,24 +266,25 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   const bool stands_out = t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks;
   if ((rejected || stands_out) && must_turn_back(series, largest)) {
     return undecided(
-        "the energy goes one way over the run, but the method is symplectic: a slow oscillation that nothing has shown "
-        "begins like a drift");
+        "the energy changes in one direction over the run, but the method is symplectic, so it may be the beginning of "
+        "a "
+        "slow oscillation");
   }
   if ((rejected || stands_out) && !goes_on_throughout(series.deviations)) {
-    return undecided("a trend is seen that did not go on: in one half of the run the energy stays where it is");
+    return undecided("there is a trend, but in one half of the run the energy does not change");
   }
   if (rejected) {
     return {DriftClass::linear, t_rejects ? steadily : "nearly all increments have one sign"};
   }
   if (stands_out) {
     return {DriftClass::linear,
-            fmt::format("a trend of {:.0f} standard deviations of the rest, more than a walk has", t.size)};
+            fmt::format("a trend of {:.0f} standard deviations of the residuals, more than a random walk has", t.size)};
   }
   if (sign_rejects && series.outgrown && stays_away(series.deviations, largest)) {
-    return {DriftClass::linear, "the energy left its value at the start for good, and the motion outgrew what it was"};
+    return {DriftClass::linear, "the energy left its initial value permanently, and the range of the motion grew"};
   }
   if (t_rejects) {
-    return undecided(fmt::format("the energy {} from block to block, but does not go one way over the run",
+    return undecided(fmt::format("the energy {} on average from block to block, but has no clear trend over the run",
                                  found.mean_increment < 0 ? "falls" : "rises"));
   }
   if (largest > series.scale) return undecided("the energy error is above the scale of the energy itself");
@@ -294,58 +294,61 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
       e > walk_above && e < walk_below && t.roughness < roughest_walk && std::abs(t.correlation) < white;
   const auto random_walk = [&](const std::string& how) -> Conclusion {
     if (series.rounding_grows) {
-      return undecided(how + ", like a random walk so far, but a coordinate keeps growing, and its roundings with it");
+      return undecided(how + ", like a random walk so far, but a coordinate and its rounding errors keep growing");
     }
     if (*found.periods < RunDrift::periods_to_be_told) {
-      return undecided(how + fmt::format(", like a random walk, but over {:.1f} periods of the slowest oscillation "
-                                         "alone; to be called one needs {}",
-                                         rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_told));
+      return undecided(how +
+                       fmt::format(", like a random walk, but only over {:.1f} periods of the slowest oscillation; "
+                                   "this class needs {}",
+                                   rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_told));
     }
     return {DriftClass::random_walk, how};
   };
   if (like_walk && largest <= walk) return random_walk(grows);
   if (like_walk) {
-    return undecided(grows +
-                     fmt::format(", like a random walk, but is {:.1e} times what rounding explains", largest / walk));
+    return undecided(
+        grows + fmt::format(", like a random walk, but is {:.1e} times larger than rounding explains", largest / walk));
   }
   const bool rounding_alone = largest <= walk && t.correlation < white;
   if (rounding_alone && t.wandering > steady_means && e < walk_below && trend_of_walks(t) < usual_in_walks) {
-    const std::string wander = "errors of the size of rounding wander from part to part of the run";
-    // Of an error that does not grow more is asked: parts of the run as long as a few periods differ by themselves.
+    const std::string wander = "errors at rounding level vary from part to part of the run";
+    // An error that does not grow needs stronger evidence, because parts as long as a few periods always differ.
     if (e < bounded_below && !(t.wandering > rare_means && *found.periods >= RunDrift::periods_to_be_told)) {
-      return undecided(wander + ", but do not grow: a longer run would tell");
+      return undecided(wander + ", but do not grow; a longer run would decide");
     }
     return random_walk(wander + "; " + grows);
   }
   if (t.size >= no_trend || t.rank >= no_rank) {
     return undecided(fmt::format(
-        "a trend is seen (rank correlation with time {:.2f}) that the increments do not prove to be a drift", t.rank));
+        "there is a trend (rank correlation with time {:.2f}), but the increments do not prove a drift", t.rank));
   }
   const bool grows_not = e < bounded_below || (e < bounded_below_rough && t.roughness > rougher_than_walks);
   if (!grows_not) {
-    return undecided(grows + fmt::format(" +- {:.2f}, between the classes", found.growth_uncertainty));
+    return undecided(grows + fmt::format(" +- {:.2f}, which is between the classes", found.growth_uncertainty));
   }
-  // Beneath an error of this size a walk of the roundings, or a trend of them, would not be seen.
-  // Roundings that grow with a coordinate sum up like t^(3/2): to 64 times as much in a run 16 times as long, of which
-  // `walk` allows for 16 already.
+  // At this error level a random walk or a trend of the roundings would not be visible.
+  // Roundings that grow with a coordinate sum up like t^(3/2), to 64 times as much in a run 16 times as long; `walk`
+  // already includes a factor of 16.
   if (largest <= std::max(32 * series.rounding, series.rounding_grows ? 4 * walk : walk / 4)) {
-    return undecided("errors of the size of roundings: what they sum up to would show in a longer run only");
+    return undecided("errors at rounding level; only a longer run can show how they sum up");
   }
   if (series.still > 0) {
     return undecided(
-        fmt::format("the oscillations that were seen are over: nothing has turned back in the last {:.2g} % "
-                    "of the run",
+        fmt::format("the oscillations have ended: there was no turning point in the last {:.2g} % of the run",
                     rounded_down(100 * series.still, 0.1)));
   }
-  if (series.bounces) return undecided("no drift is seen, but from bounce to bounce the energy of this method walks");
-  if (series.copies) {
-    return undecided("no drift is seen, but the state may part from the copy that the method carries in a longer run");
+  if (series.bounces) {
+    return undecided("no drift is seen, but the energy of this method makes a random walk from bounce to bounce");
   }
-  if (!series.steady) return undecided("the motion has outgrown the oscillations that were seen");
+  if (series.copies) {
+    return undecided(
+        "no drift is seen, but in a longer run the state may separate from the copy that the method carries");
+  }
+  if (!series.steady) return undecided("the range of the motion has grown beyond the oscillations that were seen");
   if (*found.periods < RunDrift::periods_to_be_told) {
     return undecided(
-        fmt::format("no drift is seen, but over {:.1f} periods of the slowest oscillation a small one "
-                    "cannot be excluded; to be called bounded needs {}",
+        fmt::format("no drift is seen, but over only {:.1f} periods of the slowest oscillation a small one cannot be "
+                    "excluded; the class bounded needs {}",
                     rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_told));
   }
   return {DriftClass::bounded, grows + fmt::format(" over {:.0f} periods", *found.periods)};
@@ -374,10 +377,10 @@ RunDrift classify_run(const EnergySeries& series) {
     found.growth_exponent = std::numeric_limits<double>::infinity();
     conclusion = {DriftClass::linear, "the energy is not finite"};
   } else {
-    std::vector<double> x;  // squares neither overflow nor underflow
+    std::vector<double> x;  // scaled, so that squares neither overflow nor underflow
     for (const double h : series.deviations) x.push_back(largest > 0 ? h / largest : 0);
-    // The test takes as few blocks as it may: an oscillation of amplitude A leaves 2 A in an increment however long the
-    // block, a drift grows with it, and against a walk 32 blocks are nearly as good as 128.
+    // The test uses the smallest number of blocks: an oscillation of amplitude A changes an increment by at most 2 A
+    // for any length of the block, a drift grows with the length, and for a walk 32 blocks are nearly as good as 128.
     const std::size_t stride = (x.size() - 1) / RunDrift::fewest_blocks;
     std::vector<double> ends;
     for (std::size_t i = 0; i < x.size(); i += stride) ends.push_back(x[i]);
@@ -402,9 +405,9 @@ RunDrift classify_run(const EnergySeries& series) {
     if (found.periods) conclusion = concluded(series, largest, found, t);
   }
   if (!found.periods) {
-    conclusion = undecided("nothing has turned back: no oscillation was seen");
-  } else if (*found.periods <= 0.5) {  // of a single turn nothing is known but that
-    conclusion = undecided(fmt::format("the slowest oscillation has turned once; a drift class needs {} periods",
+    conclusion = undecided("no oscillation was seen: there was no turning point");
+  } else if (*found.periods <= 0.5) {  // only a single turn is known
+    conclusion = undecided(fmt::format("the slowest oscillation has turned only once; a drift class needs {} periods",
                                        RunDrift::fewest_periods));
   } else if (*found.periods == 1) {
     conclusion = undecided(fmt::format("1 period of the slowest oscillation is too few; a drift class needs {}",

@@ -63,10 +63,10 @@ struct Ended {
   std::string told(std::int64_t per_block, std::size_t expected, double h) const {
     if (early == 0) return {};
     const auto steps = [&](std::size_t blocks) { return static_cast<std::int64_t>(blocks) * per_block; };
-    return fmt::format(
-        "{} of {} runs with the step {:.3g} {}, the shortest within {} steps after step {} of {}", early, runs, h,
-        finite ? "ended early, where a step failed or left the finite numbers" : "left the finite numbers", per_block,
-        steps(first), steps(expected - 1));
+    return fmt::format("{} of {} runs with step {:.3g} {}, the shortest within {} steps after step {} of {}", early,
+                       runs, h,
+                       finite ? "ended early, because a step failed or was not finite" : "were no longer finite",
+                       per_block, steps(first), steps(expected - 1));
   }
 };
 

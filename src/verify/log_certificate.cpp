@@ -17,11 +17,11 @@ namespace hamflow {
 
 namespace {
 
-constexpr std::size_t most_log_blocks = 256;  // as EnergyBlocks has
-constexpr std::uint64_t log_seed = 1686;      // any number: the places of the samples are part of the result
+constexpr std::size_t most_log_blocks = 256;  // the same as in EnergyBlocks
+constexpr std::uint64_t log_seed = 1686;  // arbitrary but fixed, because the places of the samples affect the result
 
-/// A place in the first half of a block, from 0 to 1/2: blocks that are all but a whole number of periods long would
-/// make a drift of an oscillation.
+/// A random place in the first half of a block, from 0 to 1/2. With equidistant samples and blocks of nearly a whole
+/// number of periods an oscillation would look like a drift.
 double place_in_block(std::size_t block) { return static_cast<double>(counter_bits(log_seed, block) >> 11) * 0x1p-54; }
 
 void check_finite(const std::vector<double>& numbers, const char* name) {
@@ -33,7 +33,7 @@ void check_finite(const std::vector<double>& numbers, const char* name) {
 
 void check_log(const std::vector<double>& t, const std::vector<double>& energy, const std::optional<double>& scale) {
   if (t.size() != energy.size()) {
-    throw Error(fmt::format("found {} times and {} energies; allowed as many of each", t.size(), energy.size()));
+    throw Error(fmt::format("found {} times and {} energies; allowed equal numbers", t.size(), energy.size()));
   }
   if (t.size() < 2) {
     throw Error(fmt::format("found {} sample{}; allowed at least 2, and a drift class needs {}", t.size(),
@@ -42,14 +42,14 @@ void check_log(const std::vector<double>& t, const std::vector<double>& energy, 
   check_finite(t, "t");
   check_finite(energy, "energy");
   if (const auto at = first_time_that_does_not_rise(t)) {
-    throw Error(fmt::format("t[{}]: found {} after {}; allowed times that rise strictly", *at, t[*at], t[*at - 1]));
+    throw Error(fmt::format("t[{}]: found {} after {}; allowed strictly increasing times", *at, t[*at], t[*at - 1]));
   }
   if (scale && !(*scale > 0 && std::isfinite(*scale))) {
     throw Error(fmt::format("scale: found {}; allowed a positive number", *scale));
   }
 }
 
-/// Whether the times are equidistant but for the rounding of printed ones.
+/// Whether the times are equidistant up to the rounding of printed numbers.
 bool is_equidistant(const std::vector<double>& t) {
   constexpr double rounded = 1e-3;  // of the spacing
   const double apart = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
@@ -59,7 +59,7 @@ bool is_equidistant(const std::vector<double>& t) {
   return true;
 }
 
-/// One sample in each of up to 256 blocks of equal duration, as numbers of samples, the first one first.
+/// The indices of one sample in each of up to 256 blocks of equal duration, starting with the first sample.
 std::vector<std::size_t> equidistant_blocks(std::size_t samples) {
   const std::size_t stride = (samples - 1 + most_log_blocks - 1) / most_log_blocks;
   std::vector<std::size_t> chosen{0};
@@ -70,7 +70,7 @@ std::vector<std::size_t> equidistant_blocks(std::size_t samples) {
   return chosen;
 }
 
-/// Of other times. Empty where a gap is so long that a block has no sample in its first half.
+/// The same for times that are not equidistant. Empty if a gap is so long that a block has no sample in its first half.
 std::vector<std::size_t> resampled_blocks(const std::vector<double>& t) {
   double longest = 0;
   for (std::size_t i = 1; i < t.size(); ++i) longest = std::max(longest, t[i] - t[i - 1]);
@@ -100,8 +100,8 @@ std::vector<double> ranks_of(const std::vector<double>& x) {
   return ranks;
 }
 
-/// Oscillations of the rate at which the energy changes from block to block, among the ranks of the rates: a drift
-/// beneath them changes nothing, and how high a rare peak is counts for little.
+/// Oscillations of the rate at which the energy changes from block to block, counted in the ranks of the rates. So a
+/// drift has no influence, and the height of rare peaks little.
 std::optional<double> periods_of_rate(const std::vector<double>& t, const std::vector<double>& x) {
   std::vector<double> rate;
   for (std::size_t i = 0; i + 1 < x.size(); ++i) rate.push_back((x[i + 1] - x[i]) / (t[i + 1] - t[i]));
@@ -112,7 +112,7 @@ std::optional<double> periods_of_rate(const std::vector<double>& t, const std::v
   return seen ? std::optional<double>(seen->periods) : std::nullopt;
 }
 
-/// The smallest difference of two energies that are not the same: that of numbers with few digits is their last digit.
+/// The smallest difference of two different energies. For numbers with few digits it is one unit of the last digit.
 double smallest_difference(std::vector<double> energy) {
   std::sort(energy.begin(), energy.end());
   double smallest = std::numeric_limits<double>::infinity();
@@ -122,11 +122,11 @@ double smallest_difference(std::vector<double> energy) {
   return std::isfinite(smallest) ? smallest : 0;
 }
 
-/// A straight line by least squares, and what is left of the values.
+/// A straight line by least squares, and the residuals.
 struct Line {
   double slope = 0;
-  double slope_error = 0;  // the standard error, of independent values
-  double deviation = 0;    // the standard deviation of the rest
+  double slope_error = 0;  // the standard error, for independent values
+  double deviation = 0;    // the standard deviation of the residuals
   std::vector<double> rest{};
 };
 Line fitted_line(const std::vector<double>& t, const std::vector<double>& x) {
@@ -146,8 +146,8 @@ Line fitted_line(const std::vector<double>& t, const std::vector<double>& x) {
   return line;
 }
 
-/// Whether x is a straight line in time to a ten-thousandth of its change. An oscillation of the energy that looks like
-/// that, sin(phi) with |phi| < 1/40, takes more than a hundred times as long as the log.
+/// Whether x is a straight line in time, to a ten-thousandth of its change. An oscillation that looks like this,
+/// sin(phi) with |phi| < 1/40, takes more than a hundred times as long as the log.
 bool is_straight(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double straight = 1e-4;
   const Line line = fitted_line(t, x);
@@ -155,7 +155,7 @@ bool is_straight(const std::vector<double>& t, const std::vector<double>& x) {
   return std::all_of(line.rest.begin(), line.rest.end(), [&](double rest) { return std::abs(rest) < most; });
 }
 
-/// Whether E, or log |E| of an energy that decays or grows exponentially, is a straight line.
+/// Whether E is a straight line, or log |E| for an energy that decays or grows exponentially.
 bool goes_straight(const std::vector<double>& t, const std::vector<double>& energy) {
   if (is_straight(t, energy)) return true;
   std::vector<double> logarithms;
@@ -166,9 +166,8 @@ bool goes_straight(const std::vector<double>& t, const std::vector<double>& ener
   return is_straight(t, logarithms);
 }
 
-/// Whether the energy is a straight line and independent noise, at all samples: neighbouring values of the noise know
-/// nothing of each other, as those of a walk or of a slow oscillation would, and the mean of each eighth of the log
-/// lies on the line.
+/// Whether the energy is a straight line plus independent noise: neighbouring values of the noise are not correlated,
+/// unlike those of a walk or a slow oscillation, and the mean of each eighth of the log lies on the line.
 bool is_line_beneath_noise(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double clear_change = 4;  // standard deviations of the noise
   constexpr double most_correlation = 0.2;
@@ -204,11 +203,12 @@ std::vector<Line> quarters(const std::vector<double>& t, const std::vector<doubl
   return all;
 }
 
-/// The rate of a drift in a quarter of the log over that of the whole; none where they differ by no more than noise, or
-/// the change itself, explains. What drifts by a part of the scale is another motion then, with another drift.
-/// @param change of the energy, over the scale
+/// The rate of the drift in a quarter of the log, divided by the rate of the whole; nullopt if they differ only as much
+/// as noise or the change of the energy itself explains. (After a large change the motion is another one, with another
+/// rate.)
+/// @param change of the energy, divided by the scale
 std::optional<double> unsteady_rate(const std::vector<double>& t, const std::vector<double>& x, double change) {
-  constexpr double steady = 0.05;  // an oscillation is so straight for a fifth of its period
+  constexpr double steady = 0.05;  // an oscillation is as straight as this for a fifth of its period
   constexpr double of_the_change = 16;
   constexpr double errors = 3;
   const double whole = fitted_line(t, x).slope;
@@ -221,7 +221,7 @@ std::optional<double> unsteady_rate(const std::vector<double>& t, const std::vec
   return std::nullopt;
 }
 
-/// Whether the energy goes one way throughout a quarter of the log.
+/// Whether the energy changes in one direction throughout a quarter of the log.
 bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double errors = 4;
   const std::vector<Line> all = quarters(t, x);
@@ -229,8 +229,8 @@ bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
                      [&](const Line& part) { return std::abs(part.slope) > errors * part.slope_error; });
 }
 
-/// The mean absolute deviation from their mean in each of `parts` parts of the log of equal duration: how high the rare
-/// peaks of an eccentric orbit are seen, which is chance, counts for less than in the RMS or the range.
+/// The mean absolute deviation in each of `parts` parts of the log of equal duration. The sampled height of the rare
+/// peaks of an eccentric orbit, which is random, has less influence than on the RMS or the range.
 std::vector<double> deviations_of_parts(const std::vector<double>& t, const std::vector<double>& x, std::size_t parts) {
   std::vector<double> all;
   const double whole = t.back() - t.front();
@@ -250,12 +250,12 @@ std::vector<double> deviations_of_parts(const std::vector<double>& t, const std:
   return all;
 }
 
-/// How an oscillation of the energy error grows over the log; empty where it does not, or by no more than noise
-/// explains. An amplitude that changes and returns, as in a beat, has no trend.
+/// A text about the growth of an oscillation of the energy error; empty if it does not grow, or not more than noise
+/// explains. An amplitude that changes periodically, as in a beat, has no trend.
 std::string growth_of_oscillation(const std::vector<double>& t, const std::vector<double>& x, double periods) {
-  constexpr double level = 1e-4;          // of the t-test
-  constexpr double clear = 1.1;           // parts that are no whole number of periods long differ by a few per cent
-  constexpr double clearly_at_end = 1.5;  // of an oscillation that has begun to grow late
+  constexpr double level = 1e-4;          // significance level of the t-test
+  constexpr double clear = 1.1;           // parts that are not a whole number of periods differ by a few per cent
+  constexpr double clearly_at_end = 1.5;  // for an oscillation that starts to grow late
   constexpr std::size_t coarse = 8;       // at least two periods in each
   const std::size_t parts = periods >= 64 && t.size() >= 256 ? 2 * coarse : coarse;
   const std::vector<double> sizes = deviations_of_parts(t, x, parts);
@@ -323,10 +323,11 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
   }
   const std::vector<std::size_t> chosen = is_equidistant(t) ? equidistant_blocks(t.size()) : resampled_blocks(t);
   if (chosen.size() <= static_cast<std::size_t>(RunDrift::fewest_blocks)) {
-    leave_undecided(found.drift,
-                    fmt::format("the samples are too unevenly spaced: a drift class needs one in each half "
-                                "of {} parts of the log of equal duration",
-                                RunDrift::fewest_blocks + 1));
+    leave_undecided(
+        found.drift,
+        fmt::format("the samples are too unevenly spaced; a drift class needs one in the first half of each "
+                    "of {} parts of the log of equal duration",
+                    RunDrift::fewest_blocks + 1));
     return found;
   }
   std::vector<double> times;
@@ -338,35 +339,36 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
     series.deviations.push_back(energy[i] - energy.front());
   }
   series.periods = periods_of_rate(times, series.deviations);
-  constexpr double parts_over_whole = 4;  // a log does not tell how large the kinetic and the potential energy are
+  constexpr double parts_over_whole = 4;  // assumed size of kinetic and potential energy relative to the total energy
   series.rounding = std::max(parts_over_whole * epsilon * largest_energy, smallest_difference(energy) / 2);
   series.roundings = static_cast<double>(t.size() - 1);
   series.scale = found.scale.value_or(largest_energy);
   found.drift = classify_run(series);
   if (largest_deviation == 0) {
-    leave_undecided(found.drift, "all energies of the log are the same number: a log with more digits would tell");
+    leave_undecided(found.drift, "all energies of the log are equal; a log with more digits would decide");
   } else if (found.drift.drift == DriftClass::linear) {
     if (const auto rate = unsteady_rate(times, series.deviations, largest_deviation / series.scale)) {
-      leave_undecided(found.drift,
-                      fmt::format("the energy goes one way, but in a quarter of the log at {:.2g} times the mean rate: "
-                                  "an oscillation slower than the log begins like a drift",
-                                  *rate));
+      leave_undecided(
+          found.drift,
+          fmt::format("the energy changes in one direction, but in a quarter of the log at {:.2g} times the "
+                      "mean rate, so it may be a part of an oscillation slower than the log",
+                      *rate));
     }
   } else if (found.drift.drift == DriftClass::bounded) {
     if (moves_slowly(times, series.deviations)) {
       leave_undecided(
           found.drift,
-          "no drift is seen, but the energy goes one way throughout a quarter of the log: an oscillation as "
-          "slow as that has to be seen 16 times");
+          "no drift is seen, but the energy changes in one direction throughout a quarter of the log; such a slow "
+          "oscillation must be seen 16 times");
     } else if (const std::string grows = growth_of_oscillation(t, energy, found.drift.periods.value_or(0));
                !grows.empty()) {
       leave_undecided(found.drift, grows);
     }
   } else if (!found.drift.drift && goes_straight(times, energies)) {
     found.drift.drift = DriftClass::linear;
-    found.drift.reason = "the energy goes one way at a constant rate, to a ten-thousandth of its change";
+    found.drift.reason = "the energy changes at a constant rate, to a ten-thousandth of its change";
   } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&
-             is_line_beneath_noise(t, energy)) {  // above what roundings to one side sum up to by chance
+             is_line_beneath_noise(t, energy)) {  // more than the sum of roundings to one side explains
     found.drift.drift = DriftClass::linear;
     found.drift.reason = "a straight line beneath independent noise";
   }

@@ -63,7 +63,7 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
   }
   // The default start, or any state when there is none, moved a little: no coordinate at rest.
   const std::size_t dimension = entry.dimension > 0 ? entry.dimension : entry.info.default_q.size();
-  if (dimension == 0) throw Error(problem + " is of any size and declares neither a region nor a default start");
+  if (dimension == 0) throw Error(problem + " has no fixed size, and declares neither a region nor a default start");
   for (std::size_t i = 0; i < 2 * dimension; ++i) {
     const auto& texts = i < dimension ? entry.info.default_q : entry.info.default_p;
     const std::size_t at = i % dimension;
@@ -98,8 +98,7 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
   if (describe(method).varies_steps) {
     throw Error(
         "found " + describe(method).name +
-        "; allowed step_control=fixed: what is measured are maps of (q, p), and with steps of varying length the "
-        "density of steps is a part of the state");
+        "; allowed step_control=fixed, because with steps of varying length a step is not a map of (q, p) alone");
   }
   const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;

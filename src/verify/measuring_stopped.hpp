@@ -1,4 +1,4 @@
-// Leaves a measurement that somebody wants to stop.
+// Leaves a measurement that was asked to stop.
 #pragma once
 
 #include "hamflow/core/stop_question.hpp"

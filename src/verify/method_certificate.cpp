@@ -28,8 +28,7 @@ Request request_on(const Region& region, const MethodSpec& method, const State<d
   return request;
 }
 
-/// Half of the digits of a double: a motion that has grown by more is no longer the one that was begun, and what
-/// rounding explains of its invariants is as large as they were.
+/// Half of the digits of a double. If the motion grows by more, rounding explains errors as large as the invariants.
 constexpr double largest_growth = 0x1p26;
 
 double largest_coordinate(const Frame& frame) {
@@ -43,14 +42,14 @@ double largest_coordinate(const Frame& frame) {
 /// Why a run shows nothing of what it conserves; empty where it does.
 std::string nothing_shown(const Simulation& simulation, Outcome outcome, double size_at_start, double size) {
   if (outcome == Outcome::non_finite) {
-    return fmt::format("the run left the finite numbers after step {} of {}", simulation.step(), map_steps);
+    return fmt::format("the state was no longer finite after step {} of {}", simulation.step(), map_steps);
   }
   if (outcome != Outcome::done) {
     return fmt::format("the run stopped at step {} of {}: {}", simulation.step(), map_steps,
                        cause_of(simulation.failure()));
   }
   if (!(size <= largest_growth * size_at_start)) {
-    return fmt::format("the run left its scale: coordinates grew from {:.2g} to {:.2g}", size_at_start, size);
+    return fmt::format("the motion grew too much: coordinates grew from {:.2g} to {:.2g}", size_at_start, size);
   }
   return {};
 }
@@ -78,7 +77,7 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
       const bool in_doubt = nothing.empty() && !map.conserved();
       found.momentum_maps.push_back({region.problem, map.name, simulation->step(), map.max_error, map.relative,
                                      *map.rounding, nothing.empty() ? map.conserved() : std::nullopt,
-                                     in_doubt ? "its error may be of rounding or of the method" : nothing});
+                                     in_doubt ? "the error may come from rounding or from the method" : nothing});
     } else if (simulation->step() == 0 && problem.info.invariants[i].terms != Terms::other) {
       constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       found.momentum_maps.push_back({region.problem, map.name, 0, unknown, unknown, unknown, std::nullopt, nothing});

@@ -1,4 +1,4 @@
-// Whether H(q, -p) = H(q, p), asked at states in general position beside those of a motion.
+// Checks whether H(q, -p) = H(q, p), at states in general position near the states of a motion.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace hamflow {
 
 namespace {
 
-/// Every coordinate moved by up to `part` of its own size along the motion, by different amounts: no two of them then
-/// cancel by chance, as x p_y - y p_x does along a whole motion without angular momentum. What is 0 along the motion is
-/// moved by the size of the largest.
+/// Moves every coordinate by up to `part` times its size along the motion, by different amounts, so that terms do not
+/// cancel by chance, as x p_y - y p_x does along a motion without angular momentum. A coordinate that is 0 along the
+/// motion is moved by the size of the largest.
 std::vector<double> beside(const std::vector<double>& x, const std::vector<double>& sizes, double part,
                            std::uint64_t draw) {
   const double largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
@@ -31,13 +31,13 @@ std::vector<double> negated(std::vector<double> p) {
 
 }  // namespace
 
-/// Asked of the velocities v = dH/dp, which hold neither V nor a constant: H is even in p just where v is odd. What is
-/// even by its expression is so to the last bit.
+/// Tests the velocities v = dH/dp, which contain neither V nor a constant: H is even in p if and only if v is odd. If
+/// the expression of H is even, v is odd to the last bit.
 MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& parameters, const StateSizes& sizes,
                                  std::span<const Frame* const> states) {
   constexpr double parts[] = {0x1p-4, 0x1p-16, 0x1p-32};  // near a singularity H is finite only close to the motion
   constexpr std::uint64_t draws = 4;
-  constexpr std::size_t large = 1000;  // coordinates: one state is enough of them to ask
+  constexpr std::size_t large = 1000;  // with so many coordinates one state is enough
   const Texts all = complete(problem.info, parameters);
   MomentumParity found;
   const auto finite = [&](const std::vector<double>& q, const std::vector<double>& p) {
@@ -79,9 +79,10 @@ MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& param
 }
 
 std::string why_not_reversed(const MomentumParity& parity) {
-  if (!parity.is_defined) return "H is not defined at (q, -p): negating the momenta reverses no motion of this problem";
+  if (!parity.is_defined)
+    return "H is not defined at (q, -p), so the motion cannot be reversed by negating the momenta";
   if (parity.is_even) return {};
-  return "H(q, -p) differs from H(q, p): the motion itself is not reversed by negating the momenta";
+  return "H(q, -p) differs from H(q, p), so negating the momenta does not reverse the motion itself";
 }
 
 }  // namespace hamflow

@@ -92,7 +92,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   OrderMeasurement found;
   if (masked && log_step.empty()) {
     found.slope = std::numeric_limits<double>::infinity();
-    found.reason = "errors of rounding alone with every step length: exact here, which shows no order";
+    found.reason = "all errors are at rounding level, so the method is exact here and the order cannot be measured";
     return found;
   }
   const std::size_t surplus =
@@ -108,7 +108,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   if (found.points < OrderMeasurement::fewest_points) {
     found.reason = fmt::format("{} error{} of the {} that a slope needs", found.points, found.points == 1 ? "" : "s",
                                OrderMeasurement::fewest_points);
-    if (failed > 0) found.reason += fmt::format(": a step failed with {} of {} step lengths", failed, tried);
+    if (failed > 0) found.reason += fmt::format(", because a step failed with {} of {} step sizes", failed, tried);
   }
   return found;
 }

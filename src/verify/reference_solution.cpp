@@ -189,8 +189,8 @@ class ReferenceRun::Impl {
         const std::string why = one->failure().empty() ? std::string(message(outcome)) : cause_of(one->failure());
         Frame frame;
         one->look(frame);
-        throw Error("there is no reference: the motion cannot be followed beyond t = " + shortest(frame.time) + ": " +
-                    why);
+        throw Error("there is no reference solution: the motion cannot be integrated beyond t = " +
+                    shortest(frame.time) + ": " + why);
       }
     }
     look();
@@ -231,7 +231,7 @@ class ReferenceRun::Impl {
     const Magnitude twice = difference.text.empty() ? Magnitude(2 * difference.value) : difference;
     solution_.uncertainty = twice < least ? least : twice;
     solution_.description = fmt::format(
-        "{}, tolerance {:.0e}, in {}; it differs by {} of its size from the {}, tolerance {:.0e}", first_name_,
+        "{}, tolerance {:.0e}, in {}; relative difference {} from the {}, tolerance {:.0e}", first_name_,
         first_tolerance_, arithmetic_, readable(difference), extrapolation_name(second_tolerance_), second_tolerance_);
   }
 

@@ -151,7 +151,7 @@ std::string certificates(std::span<const PropertyRow> rows) {
     }
     for (const auto& r : c.reversals) {
       line[column(return_heading(r))] =
-          !r.measured ? "broke down" : fmt::format("{:.0e} off: {}", r.distance, r.proves);
+          !r.measured ? "failed" : fmt::format("distance {:.0e}: {}", r.distance, r.proves);
     }
     lines.push_back(line);
   }
@@ -192,7 +192,7 @@ std::string not_measured(std::span<const PropertyRow> rows) {
       if (!m.reason.empty()) lines.push_back({method, m.problem, m.name, m.reason});
     }
   }
-  return lines.size() == 1 ? "" : "\nwhat was not measured in full, and why\n" + aligned(lines);
+  return lines.size() == 1 ? "" : "\nproperties that were not fully measured\n" + aligned(lines);
 }
 
 /// Below every normal number only that.
@@ -240,13 +240,12 @@ std::string property_table(std::span<const PropertyRow> rows) {
   std::string notes;
   for (const PropertyRow& row : rows) {
     if (row.measured_as.empty()) continue;
-    notes +=
-        row.claims.name + " was measured as " + row.measured_as + ": with sub-steps of its own a step has no order\n";
+    notes += row.claims.name + " was measured as " + row.measured_as + ", because adaptive sub-steps have no order\n";
   }
   return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + notes +
          "\norder and structure: defects\n" + aligned(structure) +
          "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy) +
-         "\ncertificates: what was kept over long runs\n" + certificates(rows) + not_measured(rows);
+         "\ncertificates: conservation in long runs\n" + certificates(rows) + not_measured(rows);
 }
 
 std::string property_json(std::span<const PropertyRow> rows) {

@@ -1,4 +1,4 @@
-// Forward, negate the momenta, forward, negate: the experiment that finds every step that is not reversible.
+// Reversal: integrate forward, negate the momenta, integrate again, negate. It reveals every irreversible step.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -13,9 +13,9 @@ namespace {
 
 /// Looks at the way there once in each of some 64 parts, at a random place that is always the same: at places in step
 /// with an oscillation the momenta may be 0 each time.
-class SizesThere final : public Observer {
+class ForwardSizes final : public Observer {
  public:
-  SizesThere(std::int64_t first, std::int64_t steps, StateSizes& sizes)
+  ForwardSizes(std::int64_t first, std::int64_t steps, StateSizes& sizes)
       : first_(first), last_(first + steps), part_(std::max<std::int64_t>(1, steps / 64)), sizes_(sizes) {}
   std::int64_t next_due(std::int64_t step) const override {
     const std::int64_t k = std::max<std::int64_t>(0, step - first_) / part_;
@@ -62,13 +62,13 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
     return found.outcome == Outcome::done;
   };
   if (!progress.turned) {
-    SizesThere sizes(first, steps, progress.sizes);
+    ForwardSizes sizes(first, steps, progress.sizes);
     std::vector<Observer*> watching{&sizes};
     watching.insert(watching.end(), there.begin(), there.end());
     const bool arrived = go(first + steps, watching);
     simulation.look(progress.turn);
     progress.turn_hash = fnv1a(simulation.bits());
-    progress.energy_there = simulation.energy();
+    progress.forward_energy = simulation.energy();
     if (arrived) {
       simulation.negate_momenta();
       progress.turned = true;
@@ -80,7 +80,7 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
   found.sizes = progress.sizes;
   if (!progress.turned) return found;
   if (!go(first + 2 * steps, back)) {
-    const auto here = simulation.clone();  // the way back may go on, with what its method remembers
+    const auto here = simulation.clone();  // the original may continue the way back with the memory of its method
     here->negate_momenta();
     here->look(found.end);
     found.end_hash = fnv1a(here->bits());

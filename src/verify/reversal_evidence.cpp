@@ -1,4 +1,4 @@
-// What the reversal of a part of a run proves: its distance beside what rounding explains.
+// Judges the reversal of a part of a run: compares its distance with the distance that rounding explains.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace hamflow {
 
 namespace {
 
-constexpr double moved = 0x1p-36;       // of the size of q and of p: 2^16 roundings, and far from where motions part
-constexpr double moved_less = 0x1p-40;  // the same for the motions that tell whether what parts is in proportion
-constexpr double in_proportion = 4;     // up to such a factor: a smooth motion has 1, and roundings add to it
-constexpr double parted = 1e-3;         // of the size: no longer a small difference
-constexpr double beyond = 16;           // bounds of rounding: what is within so many is no proof against a method
-constexpr std::int64_t most_waypoints = 64;                // at which two motions are compared
-constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates of all of them: 128 MB, with momenta
+constexpr double moved = 0x1p-36;            // initial distance relative to q and p: 2^16 roundings, but still small
+constexpr double moved_less = 0x1p-40;       // smaller initial distance, to test whether distances grow in proportion
+constexpr double in_proportion = 4;          // allowed factor: a smooth motion has 1, and roundings add to it
+constexpr double parted = 1e-3;              // relative distance that is no longer small
+constexpr double beyond = 16;                // a distance within so many rounding bounds does not refute a method
+constexpr std::int64_t most_waypoints = 64;  // number of states at which two motions are compared
+constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates in all of them: 128 MB, with momenta
 
-/// Keeps the states of a motion at up to `most_waypoints` of its steps, of very large systems at fewer: at least four.
+/// Stores the states of a motion at up to `most_waypoints` steps; for very large systems at fewer, but at least four.
 class Waypoints final : public Observer {
  public:
   Waypoints(std::int64_t steps, std::size_t size)
@@ -61,13 +61,13 @@ struct Motion {
   const Waypoints& way;
   UnitGroups groups;
   GroupSizes sizes = group_sizes(groups, reversal.sizes);
-  std::size_t count() const { return sizes.size.size(); }  // of groups, those of momenta included
-  /// What a difference within a group is relative to.
+  std::size_t count() const { return sizes.size.size(); }  // number of groups, including those of momenta
+  /// The size by which differences within a group are divided.
   double unit(std::size_t group) const { return sizes.size[group] > 0 ? sizes.size[group] : 1; }
 };
 
-/// How far another motion is from those states, at the same steps: the largest difference of a number over the size of
-/// its group, where that is more than rounding. It keeps no states of its own.
+/// The distance of another motion from the stored states, at the same steps: the largest difference of a number divided
+/// by the size of its group, for groups that are more than rounding. It stores no states.
 class DistancesFrom final : public Observer {
  public:
   explicit DistancesFrom(const Motion& motion) : motion_(motion), of_positions_(motion.groups.count()) {
@@ -77,7 +77,7 @@ class DistancesFrom final : public Observer {
   std::int64_t next_due(std::int64_t step) const override { return motion_.way.next_due(step); }
   Verdict observe(const Frame& frame) override { return look(frame.q, frame.p) ? Verdict::go_on : Verdict::stop; }
 
-  /// The next state. False: there is none left to compare it with.
+  /// Compares the next state. Returns false if no stored state is left.
   bool look(const std::vector<double>& q, const std::vector<double>& p) {
     if (looks_ == motion_.way.count()) return false;
     const std::vector<double>& way_q = motion_.way.q(looks_);
@@ -99,7 +99,7 @@ class DistancesFrom final : public Observer {
     }
     for (std::size_t k = 0; k < p.size(); ++k) {
       const double apart = std::abs(way_p[k] - p[k]);
-      // Of two motions that meet a wall one is the first to bounce. Until the other has, their momenta are opposite.
+      // If two motions meet a wall, one of them bounces first. Until the other one bounces, their momenta are opposite.
       const double turned = is_on_wall(k, way_q[k], q[k]) ? std::abs(way_p[k] + p[k]) : apart;
       (void)relative(n + motion_.groups.group(k), std::min(apart, turned));
     }
@@ -110,11 +110,11 @@ class DistancesFrom final : public Observer {
   }
   bool is_complete() const { return finite_ && looks_ == motion_.way.count(); }
   double furthest() const { return furthest_; }
-  std::size_t widest() const { return widest_; }  // the group that is
+  std::size_t widest() const { return widest_; }  // the group with the largest distance
   double mean_square() const { return squares_ / static_cast<double>(looks_); }
 
  private:
-  /// Both are as near to a wall as the motions are to each other, some times over.
+  /// Whether both states are as near to a wall as the motions are to each other, within a factor.
   bool is_on_wall(std::size_t coordinate, double a, double b) const {
     const std::size_t group = motion_.groups.group(coordinate);
     const double near = 16 * std::max(moved, of_positions_[group]) * motion_.unit(group);
@@ -125,7 +125,7 @@ class DistancesFrom final : public Observer {
 
   const Motion& motion_;
   std::vector<WallSide<double>> sides_;
-  std::vector<double> of_positions_;  // the furthest of each group of coordinates
+  std::vector<double> of_positions_;  // largest distance of each group of coordinates
   double furthest_ = 0;
   std::size_t widest_ = 0;
   double squares_ = 0;
@@ -133,10 +133,10 @@ class DistancesFrom final : public Observer {
   bool finite_ = true;
 };
 
-/// How the start of another motion lies beside that of the first: every coordinate moved by `size` of its own size
-/// along the motion, up or down by chance. On a lattice, whose roundings have one size, of the largest coordinate's.
-/// With `unequal`, by half of it up to the whole: no two particles then move alike, so that the distance of every pair
-/// changes, and of a move and the opposite one either brings it nearer.
+/// The displacement of the start of another motion: every coordinate is moved by `size` times its size along the
+/// motion, with a random sign. On a lattice, where all roundings are equal, the size of the largest coordinate is used.
+/// With `unequal` the moves are between half and the whole of this, so that no two particles move alike, the distance
+/// of every pair changes, and either a move or the opposite one reduces it.
 struct Move {
   double size = moved;
   std::uint64_t seed = 1;
@@ -161,7 +161,7 @@ std::function<bool(std::int64_t)> pulse_of(const GoOn& go_on) {
   return [&go_on](std::int64_t) { return go_on(); };
 }
 
-/// The run itself has all threads that can be started here: one thread gives the same bits.
+/// Makes a second simulation. If no further threads can be started, it uses one thread, which gives the same bits.
 std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
   Request plain = request;
   plain.watch = false;
@@ -173,12 +173,12 @@ std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
   }
 }
 
-/// How far two motions part that begin `Move::size` apart, relative to the sizes of the groups.
+/// The separation of two motions that start `Move::size` apart, relative to the sizes of the groups.
 struct Parting {
   bool measured = false;
-  double root_mean_square = 0;  // over the way, over Move::size
+  double root_mean_square = 0;  // along the way, divided by Move::size
   double furthest = 0;
-  std::size_t widest = 0;  // the group in which that is
+  std::size_t widest = 0;  // the group with the furthest distance
 };
 
 std::vector<std::string> all_texts(const std::vector<double>& x) {
@@ -188,8 +188,8 @@ std::vector<std::string> all_texts(const std::vector<double>& x) {
   return texts;
 }
 
-/// The motion that begins at (q, p), and its second copy with it at states of its own: a run keeps them together at the
-/// start, but what rounding does to one it does not do to the other.
+/// Follows the motion that starts at (q, p), with the second copy starting at another displaced state: a run starts
+/// both copies equal, but rounding acts on each of them differently.
 void follow_with_copy(const Motion& motion, const std::vector<double>& q, const std::vector<double>& p,
                       const Move& move, DistancesFrom& beside, const GoOn& go_on) {
   const Reversal& reversal = motion.reversal;
@@ -198,7 +198,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
   request.parameters = complete(motion.problem.info, request.parameters);
   const auto map = motion.problem.step_map(request, n);
   if (!map) return;
-  // (q, x, p, y): the copy of the start itself, moved by other chances.
+  // (q, x, p, y): the copy (x, y) is the start with other random displacements.
   const StateSizes& sizes = motion.reversal.sizes;
   const std::vector<double> x = moved_by(reversal.start.q, sizes.q, move, move.seed + 16, false);
   const std::vector<double> y = moved_by(reversal.start.p, sizes.p, move, move.seed + 17, false);
@@ -214,7 +214,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
   }
 }
 
-/// In double: what is small beside the motion grows alike in every arithmetic.
+/// Measures the separation in double, because small differences grow in the same way in every arithmetic.
 Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) {
   const Reversal& reversal = motion.reversal;
   const StateSizes& sizes = motion.reversal.sizes;
@@ -240,12 +240,12 @@ Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) 
   return {true, std::sqrt(beside.mean_square()) / std::abs(move.size), beside.furthest(), beside.widest()};
 }
 
-/// The distance that rounding explains, relative to the size of a group. A rounding of step j, on the
-/// way there or back, is carried by the way back from j to the start. Of a symplectic map the inverse has the norm of
-/// the map, so that it grows as a small difference at the start does on the way to j, which is measured. Roundings of
-/// unit size u then add up like a walk: to u sqrt(2 a sum_j g_j^2) for a actions a step; four of them,
-/// which is more than six times what reversible methods were found to need (tools/confusion_table.py).
-/// @param growth Parting::root_mean_square   @param bounds so many times that
+/// The distance that rounding explains, relative to the size of a group. The way back from j to the start amplifies a
+/// rounding of step j. The inverse of a symplectic map has the norm of the map, so the amplification g_j is that of a
+/// small difference on the way from the start to j, which is measured. Roundings of size u then add up like a walk, to
+/// u sqrt(2 a sum_j g_j^2) for a operations per step. The bound is four times this, which is more than six times what
+/// reversible methods were found to need (tools/confusion_table.py).
+/// @param growth Parting::root_mean_square   @param bounds factor for the result
 LongNumber explained_by_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   const Request& request = motion.request;
   const double factor = bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(motion.reversal.steps))) * growth;
@@ -258,15 +258,15 @@ LongNumber explained_by_rounding(const Motion& motion, double growth, double act
                             over(request.momentum_unit, largest_of(sizes.p))});
 }
 
-/// Whether what came back is within so many of those bounds.
+/// Whether the distance of the reversal is within so many of these bounds.
 bool within_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   return at_most(motion.reversal.relative_distance, explained_by_rounding(motion, growth, actions, bounds));
 }
 
 std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:.1e}", x.value) : x.text; }
 
-/// Whether a motion begins on a hard wall, to rounding. There it comes back to the wall with the momentum of before or
-/// behind the bounce, which of them decides the last bit of the time.
+/// Whether a motion starts on a hard wall, to rounding. Then it returns to the wall with the momentum before or after
+/// the bounce, depending on the last bit of the time.
 bool begins_on_a_wall(const Motion& motion) {
   const auto& walls = motion.request.walls;
   if (!walls || !walls->hard()) return false;
@@ -278,8 +278,8 @@ bool begins_on_a_wall(const Motion& motion) {
   });
 }
 
-/// Whether a force may jump: at a hard wall, where the energy of a pair is cut off, where a typed H has an abs(). All
-/// others depend smoothly on the state wherever H is finite.
+/// Whether a force may be discontinuous: at a hard wall, at the cut-off of a pair energy, or with abs() in a typed H.
+/// All other forces depend smoothly on the state wherever H is finite.
 bool force_may_jump(const Request& request, const ProblemEntry& problem) {
   const auto& choices = request.variant;
   return has_hard_walls(request) || problem.has_cutoff ||
@@ -287,18 +287,19 @@ bool force_may_jump(const Request& request, const ProblemEntry& problem) {
                      [](const auto& choice) { return choice.second.find("abs") != std::string::npos; });
 }
 
-/// Why what rounding becomes is not known; empty where small differences grow in proportion to themselves, as those of
-/// every motion do that depends on its start smoothly. Where a force jumps between two motions that are close, one of
-/// them takes a kick that the other does not, however close they are. A rounding then does as much as the move here.
-/// Bodies of unlike masses part by unlike factors in unlike directions: what is not in proportion to the first move is
-/// compared with a larger move in its own direction. The furthest that is seen is then what rounding may become.
-/// @param apart how the first move parts; becomes the furthest parting seen
+/// Why the amplification of rounding is unknown; empty if small differences grow in proportion to their size, as they
+/// do for every motion that depends smoothly on its start. At a discontinuity of the force one of two close motions may
+/// get a kick that the other does not get, however close they are; then a rounding has the same effect as the
+/// displacement here. Bodies with different masses separate by different factors in different directions. So a
+/// separation that is not in proportion to the first displacement is compared with a larger displacement in the same
+/// direction, and the largest separation is used.
+/// @param apart separation for the first displacement; becomes the largest separation
 std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& go_on) {
   const auto alike = [](const Parting& nearer, const Parting& wider) {
     return nearer.root_mean_square <= in_proportion * wider.root_mean_square &&
            wider.root_mean_square <= in_proportion * nearer.root_mean_square;
   };
-  const char* const unmeasured = "but how far rounding is carried could not be measured";
+  const char* const unmeasured = "but the amplification of rounding errors could not be measured";
   for (const double sign : {1.0, -1.0}) {
     const Parting nearer = parting(motion, go_on, {sign * moved_less, 3, true});
     if (!nearer.measured) return unmeasured;
@@ -313,18 +314,17 @@ std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& 
       continue;
     }
     return fmt::format(
-        "but what rounding becomes is not known: motions that begin {:.1e} of their size apart part by {:.1e} of it, "
-        "those that begin {:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where {}stiff "
-        "steps round by more than that",
+        "but the amplification of rounding errors is unknown: motions that start {:.1e} apart (relative) separate to "
+        "{:.1e}, those that start {:.1e} apart in the same direction to {:.1e}, which is not proportional; {}stiff "
+        "steps "
+        "with larger rounding errors can be the cause",
         moved, wider.furthest, moved_less, nearer.furthest,
-        force_may_jump(motion.request, motion.problem)
-            ? "a force jumps and a rounding decides on which side it is taken, or where "
-            : "");
+        force_may_jump(motion.request, motion.problem) ? "a discontinuous force or " : "");
   }
   return {};
 }
 
-/// What is proved, and why.
+/// The conclusion and the reason.
 std::pair<ReversalProof, std::string> judged(const Motion& motion, double actions, const GoOn& go_on) {
   const Reversal& reversal = motion.reversal;
   const MethodInfo method = describe(motion.request.method);
@@ -333,34 +333,38 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
       why_not_reversed(parity_in_momenta(motion.problem, motion.request.parameters, motion.reversal.sizes, states));
   if (!why_not.empty()) return {ReversalProof::nothing, why_not};
   if (reversal.bit_exact) {
-    if (method.reversible) return {ReversalProof::every_bit, "every bit came back"};
+    if (method.reversible) return {ReversalProof::every_bit, "every bit returned"};
     return {ReversalProof::nothing,
-            "every bit came back, but " + method.name + " is not reversible: its defect is below rounding"};
+            "every bit returned, but " + method.name + " is not reversible; its defect is below rounding"};
   }
   Parting apart = parting(motion, go_on);
-  if (!apart.measured) return {ReversalProof::nothing, "how far rounding is carried could not be measured"};
+  if (!apart.measured) {
+    return {ReversalProof::nothing, "the amplification of rounding errors could not be measured"};
+  }
   const auto off = [&](std::size_t group) {
     const GroupDistance& there = reversal.distances[group];
-    return fmt::format("{} {} off", there.name, brief(there.distance));
+    return fmt::format("distance {} in {}", brief(there.distance), there.name);
   };
   const auto parts_too_far = [&] {
     const std::size_t g = apart.widest;
-    return std::pair{ReversalProof::nothing,
-                     fmt::format("{}, but motions that begin close to each other part by a factor of {:.0e}: what "
-                                 "rounding becomes is not known",
-                                 off(g), apart.furthest / moved)};
+    return std::pair{
+        ReversalProof::nothing,
+        fmt::format("{}, but motions that start close together separate by a factor of {:.0e}, so the effect "
+                    "of rounding is unknown",
+                    off(g), apart.furthest / moved)};
   };
   const auto has_parted = [&] { return apart.furthest > parted; };
   if (has_parted()) return parts_too_far();
   if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
-    return {ReversalProof::to_rounding,
-            "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
+    return {
+        ReversalProof::to_rounding,
+        "every digit of q and p returned, but not the sign of a zero or digits that the steps carry below the last"};
   }
-  std::size_t worst = 0;  // the group that is furthest off
+  std::size_t worst = 0;  // the group with the largest relative distance
   for (std::size_t g = 1; g < motion.count(); ++g) {
     if (!at_most(reversal.distances[g].relative, reversal.distances[worst].relative)) worst = g;
   }
-  // What is below the bound of a motion in which nothing grows needs no other one.
+  // A distance below the bound without any amplification needs no further motion.
   if (!within_rounding(motion, std::min(apart.root_mean_square, 1.0), actions)) {
     const std::string unknown = out_of_proportion(motion, apart, go_on);
     if (!unknown.empty()) return {ReversalProof::nothing, off(worst) + ", " + unknown};
@@ -370,29 +374,29 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   const LongNumber rounding = explained_by_rounding(motion, growth, actions);
   const LongNumber in_its_unit = rounding.text.empty() ? LongNumber(rounding.value * motion.unit(worst))
                                                        : times(motion.unit(worst), rounding.text);
-  const std::string explained = fmt::format("{}, of which rounding explains {}", off(worst), brief(in_its_unit));
+  const std::string explained = fmt::format("{}, rounding explains up to {}", off(worst), brief(in_its_unit));
   if (!within_rounding(motion, growth, actions)) {
     if (method.reversible && within_rounding(motion, growth, actions, beyond)) {
-      return {
-          ReversalProof::nothing,
-          explained + fmt::format(", and less than {:g} times that is no proof: a stiff step rounds by more than is "
-                                  "estimated, and an arithmetic of more digits would tell",
-                                  beyond)};
+      return {ReversalProof::nothing,
+              explained +
+                  fmt::format(", and less than {:g} times this is not a proof, since stiff steps have larger rounding "
+                              "errors; an arithmetic with more digits would decide",
+                              beyond)};
     }
     if (!begins_on_a_wall(motion)) return {ReversalProof::not_reversible, explained};
     return {ReversalProof::nothing, explained +
-                                        ", but the motion begins on a wall, where the state before the bounce "
-                                        "and that behind it are one"};
+                                        ", but the motion starts on a wall, where the states before and after the "
+                                        "bounce cannot be distinguished"};
   }
-  if (rounding.value > parted) return {ReversalProof::nothing, explained + ", which is too much to tell"};
+  if (rounding.value > parted) return {ReversalProof::nothing, explained + ", which is too large for a conclusion"};
   if (!method.reversible) {
     return {ReversalProof::nothing,
-            explained + "; " + method.name + " is not reversible, but its defect is below that"};
+            explained + "; " + method.name + " is not reversible, but its defect is below this bound"};
   }
   return {ReversalProof::to_rounding, explained};
 }
 
-/// The step of the first bounce; 0: there is none in so many steps.
+/// The step of the first bounce; 0: no bounce within `steps`.
 std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn& go_on) {
   const auto simulation = simulation_beside_the_run(request);
   std::int64_t first = 0;
@@ -406,25 +410,25 @@ std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn
 ReversalEvidence stopped_evidence() {
   ReversalEvidence none;
   none.was_stopped = true;
-  none.reason = "the reversal was left out: it was stopped before it had come to its end";
+  none.reason = "the reversal was interrupted before it finished";
   return none;
 }
 
-/// How many times as long as in double an operation takes in another arithmetic, roughly.
+/// The approximate cost of an operation in another arithmetic, relative to double.
 double slowness_of(const std::string& arithmetic) {
   if (const int digits = mp_digits(arithmetic); digits > 0) return 200 * (1 + std::pow(digits / 300.0, 1.7));
   if (digits_beyond_double(arithmetic) > 0) return 50;
   return arithmetic == "lattice" ? 4 : 1;
 }
 
-/// The steps each way of which all evidence takes about a second. Work is counted, not timed, so that what is proved
-/// does not depend on the machine: in pairs of bodies and in coordinates, of about 10 ns in double.
+/// The number of steps each way for which all evidence takes about a second. The work is counted in pairs of bodies and
+/// in coordinates, of about 10 ns in double. It is not timed, so the conclusion does not depend on the machine.
 double steps_of_a_second(const Request& request, const ProblemEntry& problem, std::size_t size) {
   constexpr double work = 1e8;
-  constexpr double motions = 8;           // there and back, up to five beside it, the way to the first bounce
+  constexpr double motions = 8;           // forward and back, up to five displaced ones, the way to the first bounce
   constexpr double of_implicit = 20;      // evaluations of an iterated step
-  constexpr double of_coordinate = 10;    // also of a gas with a cut-off
-  constexpr double numbers_of_pair = 16;  // pairs of bodies in space: a half of a ninth of the numbers' square
+  constexpr double of_coordinate = 10;    // also for a gas with a cut-off
+  constexpr double numbers_of_pair = 16;  // n numbers have n^2/18 pairs of bodies in space
   const auto numbers = static_cast<double>(size);
   const bool all_pairs = problem.has_pairwise_forces && !problem.has_cutoff;
   const double force = std::max(of_coordinate * numbers, all_pairs ? numbers * numbers / numbers_of_pair : 0);
@@ -445,7 +449,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     return !stopped;
   };
   if (depends_on_time(problem)) {
-    found.reason = "H depends on t, which goes on: the motion itself is not reversed by negating the momenta";
+    found.reason = "H depends on t, and t keeps increasing, so negating the momenta does not reverse the motion";
     return found;
   }
   if (!go_on()) return stopped_evidence();
@@ -459,7 +463,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   const double affordable = steps_of_a_second(request, problem, size);
   found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(std::min(at_least, affordable)));
   if (found.steps == 0) {
-    found.reason = "left out: one step there and back would take more than a second and than a tenth of the run";
+    found.reason = "not tested: one step forward and back would take more than a second and a tenth of the run";
     return found;
   }
   const bool walled = has_hard_walls(request);
@@ -482,7 +486,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const MomentumParity parity = parity_in_momenta(problem, request.parameters, reversal.sizes, states);
     found.reason = !parity.is_defined
                        ? why_not_reversed(parity)
-                       : "a step of the way there or back failed: " +
+                       : "a step of the reversal failed: " +
                              (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
   } else if (!stopped) {
     found.distance = reversal.distance;
@@ -491,20 +495,20 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const Effort effort = simulation->effort();
     const double actions =
         std::max(1.0, static_cast<double>(effort.force + effort.gradient) / static_cast<double>(2 * found.steps));
-    simulation.reset();  // another one is made, and two of a million particles need not have their lists at a time
+    simulation.reset();  // frees memory, e.g. neighbour lists of a million particles, before another one is made
     reversal.end = {};
     const Motion motion{request, problem, reversal, way, groups};
     std::tie(found.proves, found.reason) = judged(motion, actions, go_on);
   }
   if (stopped) return stopped_evidence();
-  if (walled && found.bounces == 0) found.reason += "; no bounce was met";
+  if (walled && found.bounces == 0) found.reason += "; no bounce occurred";
   if (found.steps < steps_taken) {
-    found.reason += fmt::format("; the other {} steps of the run were left out", steps_taken - found.steps);
+    found.reason += fmt::format("; the other {} steps of the run were not tested", steps_taken - found.steps);
   }
   if (period && static_cast<double>(found.steps) < *period) {
     const bool turned_once = *period >= 2 * static_cast<double>(steps_taken);
-    found.reason += turned_once ? "; no whole period of the slowest oscillation was seen"
-                                : "; shorter than one period of the slowest oscillation";
+    found.reason += turned_once ? "; no complete period of the slowest oscillation was seen"
+                                : "; the test is shorter than one period of the slowest oscillation";
   }
   return found;
 }

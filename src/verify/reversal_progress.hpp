@@ -1,5 +1,5 @@
-// How far a reversal has come: what has to be known beside the simulation, so that one that was stopped goes on with
-// the same bits and finds the same distance.
+// The progress of a reversal: the data that, with the simulation, let a stopped reversal continue with the same bits
+// and find the same distance.
 #pragma once
 
 #include "hamflow/verify/certificate.hpp"
@@ -14,7 +14,7 @@ struct ReversalProgress {
   Frame start, turn;            // without effort and diagnostics once they were archived
   std::vector<std::byte> bits;  // of the start
   std::uint64_t start_hash = 0, turn_hash = 0;
-  Excursion energy_there;  // of the way there, as far as it has come; archived by those who want it
+  Excursion forward_energy;  // of the way there, as far as it has come; archived by those who want it
 
   template <class Archive>
   void archive(Archive& ar) {

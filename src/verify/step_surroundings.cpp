@@ -80,11 +80,11 @@ State<double> centre_of(const StepProblem& problem) {
       });
   if (is_of_region && !info.region.centre.empty()) return info.region.centre;
   if (problem.entry->dimension == 0) {
-    throw Error(info.name + " is of any size: give a state of it, as by problem.at(q=..., p=...)");
+    throw Error(info.name + " has no fixed size; give a state, e.g. by problem.at(q=..., p=...)");
   }
   throw Error(info.name +
-              ": found no start; allowed a state about which the step is measured, as by problem.at(q=..., "
-              "p=...): the sizes of q and p and the time scale are those of the motion");
+              ": found no start; give a state near which the step is measured, e.g. by problem.at(q=..., p=...), since "
+              "the motion gives the sizes of q and p and the time scale");
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ Surroundings surroundings_of(const StepProblem& problem) {
   };
   if (!is_regular(centre)) {
     throw Error("H or its gradient is not finite at the state chosen for " + problem.entry->info.name +
-                ": give a state of the motion, as by problem.at(q=..., p=...)");
+                "; give a state of the motion, e.g. by problem.at(q=..., p=...)");
   }
   Surroundings found;
   const auto [q, p] = parts(centre);
@@ -130,8 +130,8 @@ Surroundings surroundings_of(const StepProblem& problem) {
   }
   for (const auto& z : found.states) found.frequency = std::max(found.frequency, frequency_at(problem, z));
   if (found.states.empty() || !(found.frequency > 0)) {
-    throw Error("no motion was found beside the state chosen for " + problem.entry->info.name +
-                ": give another one, as by problem.at(q=..., p=...)");
+    throw Error("nothing moves near the state chosen for " + problem.entry->info.name +
+                "; give another state, e.g. by problem.at(q=..., p=...)");
   }
   return found;
 }

@@ -34,7 +34,7 @@ std::string flags(const MethodInfo& info) {
   return text;
 }
 
-/// Words on lines of at most 110 characters, two deeper from the second line on.
+/// Breaks a text into lines of at most 110 characters; from the second line on they are indented by two more.
 std::string filled(const std::string& text, std::size_t indent = 2) {
   constexpr std::size_t widest = 110;
   std::string all;
@@ -60,7 +60,7 @@ std::string option_row(const OptionInfo& option, const std::string& indent = "  
   return text;
 }
 
-/// False where there is no table of that name.
+/// Writes the keys of a table; returns false if no table has this name.
 bool write_keys(std::ostream& out, const std::string& name) {
   for (const DeclaredTable& table : declared_tables()) {
     if (table.name != name) continue;
@@ -71,7 +71,7 @@ bool write_keys(std::ostream& out, const std::string& name) {
   return false;
 }
 
-/// Suggests what an unknown name was meant to be. Choices of problems are tried first: "kepler" is a potential, not a
+/// Suggests a known name for an unknown one. Choices of problems are tried first: "kepler" is a potential, not a
 /// misspelt "euler".
 std::string meant_by(const std::string& name, const std::vector<std::string>& names) {
   if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
@@ -84,7 +84,7 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
   return meant.empty() ? key_elsewhere(name) : meant;
 }
 
-/// The choices that find an entry in lists; those of a typed problem are its texts.
+/// The choices that lists print beside a problem. A typed problem has none, because its choices are its formulas.
 std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& entry) {
   if (entry.structure) return {};
   return {entry.info.variant.begin(), entry.info.variant.end()};
@@ -104,39 +104,39 @@ std::string structure_text(const FormulaStructure& structure) {
   return text + (structure.time ? ", dependent on t" : "");
 }
 
-/// Of what `coordinates` declares: a name, (z1), or dots.
+/// The momentum of a declared coordinate, which is a name, (z1), or dots.
 std::string declared_momentum(const std::string& coordinate) {
   if (coordinate == "...") return coordinate;
   if (coordinate.front() != '(') return momentum_name(coordinate);
   return "(" + momentum_name(coordinate.substr(1));
 }
 
-/// A start of its own has as many as every other.
+/// The number of degrees of freedom as text; if it is not fixed, it follows from the start.
 std::string degrees_of_freedom(const ProblemEntry& entry) {
   const std::size_t n = entry.dimension > 0 ? static_cast<std::size_t>(entry.dimension) : entry.info.default_q.size();
-  if (!entry.constraint_form.empty()) return std::to_string(n) + ", less one for each constraint";
-  return n > 0 ? std::to_string(n) : "as many as the start has";
+  if (!entry.constraint_form.empty()) return std::to_string(n) + ", minus one for each constraint";
+  return n > 0 ? std::to_string(n) : "given by the start";
 }
 
 void write_problem(std::ostream& out, const ProblemEntry& entry);
 
-/// The keys of a problem with a Hamiltonian of the user, of which the catalogue has an example.
+/// Writes the keys of a problem whose Hamiltonian is typed. `example` is the example in the catalogue.
 void write_formula(std::ostream& out, const ProblemEntry& example) {
-  out << fmt::format("{}\n  a Hamiltonian as it is typed, e.g. {}\n", example.info.name, example.info.formula);
+  out << fmt::format("{}\n  a Hamiltonian that you type, e.g. {}\n", example.info.name, example.info.formula);
   out << "  keys of [problem]:\n";
   for (const OptionInfo& option : keys_of(example.info)) out << option_row(option);
   for (const std::string& line : formula_language()) out << filled(line);
   out << "  initial = { q = [...], p = [...] } or { q, v }, or with energy and one component \"+\" or \"-\"\n"
-         "  a scenario to begin with: hamflow new formula; what is found of one: hamflow show my.toml\n";
+         "  hamflow new formula prints a scenario to start from; hamflow show my.toml describes a scenario\n";
 }
 
-/// What a scenario describes: its problem, typed or not, and how it starts.
+/// Describes a scenario: its problem, its settings and its start.
 void write_scenario(std::ostream& out, const Scenario& scenario) {
   write_problem(out, *scenario.problem);
   for (const auto& [name, value] : scenario.request.parameters) {
     if (!value.empty()) out << fmt::format("  here: {} = {}\n", name, value);
   }
-  const bool box = scenario.problem->container == ContainerNames::box;  // whose walls these are
+  const bool box = scenario.problem->container == ContainerNames::box;  // the container stands for these walls
   if (const auto& walls = scenario.request.walls; walls && !box) {
     for (const Walls::Interval& wall : walls->intervals) {
       out << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
@@ -148,8 +148,8 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
     const MethodSpec taken = method_taken(scenario.request);
     if (taken.options != scenario.request.method.options) {
       out << fmt::format(
-          "  here: steps are solved by iteration = \"{}\": few second derivatives of H are not 0, "
-          "and it costs less than newton\n",
+          "  here: steps are solved by iteration = \"{}\", which costs less than newton because most second "
+          "derivatives of H are 0\n",
           taken.options.at("iteration"));
     }
   }
@@ -159,14 +159,15 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
       "  start: q = [{}], p = [{}], H = {}\n",
       scenario.start_q.size() > most_shown ? fmt::format("{} numbers", scenario.start_q.size())
                                            : list(scenario.start_q),
-      scenario.start_p.size() > most_shown ? "as many" : list(scenario.start_p),
+      scenario.start_p.size() > most_shown ? fmt::format("{} numbers", scenario.start_p.size())
+                                           : list(scenario.start_p),
       shortest(scenario.problem->energy(scenario.request.parameters, scenario.start_q, scenario.start_p)));
 }
 
-/// How a run of the problem may begin.
+/// Writes the ways to give the start of a run.
 void write_starts(std::ostream& out, const ProblemInfo& info) {
   if (!info.start_key.empty()) {
-    out << fmt::format("  {} = 1, ..., {}, each with its keys beside it:\n", info.start_key, info.starts.size());
+    out << fmt::format("  {} = 1, ..., {}, each with its own keys:\n", info.start_key, info.starts.size());
   } else if (!info.starts.empty()) {
     out << "  orbit = { kind = ..., direction = 1 or -1 } with\n";
   }
@@ -182,17 +183,16 @@ void write_starts(std::ostream& out, const ProblemInfo& info) {
                          ? ""
                          : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
                                        fmt::join(info.default_p, ", ")));
-  out << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
-         "largest, \"-\" "
-         "the smallest root of H = E\n";
+  out << "    { q, p = [\"+\", ...], energy = E } computes one component of p or v from the energy: \"+\" is the "
+         "largest, \"-\" the smallest root of H = E\n";
 }
 
-/// What may stand between coordinates and walls.
+/// Writes the walls of a problem and the keys of walls.
 void write_walls(std::ostream& out, const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   const WallKeys& keys = wall_keys();
   const bool fixed = !info.walls.empty();
-  if (!fixed && !entry.constraint_form.empty()) return;  // they exclude each other
+  if (!fixed && !entry.constraint_form.empty()) return;  // walls and constraints exclude each other
   for (const FixedWall& wall : info.walls) {
     out << fmt::format("  walls: {} from {} to {}\n", info.coordinates.at(wall.coordinate), wall.min, wall.max);
   }
@@ -204,7 +204,7 @@ void write_walls(std::ostream& out, const ProblemEntry& entry) {
   for (const auto& [name, text] : info.observables) out << fmt::format("  observable: {} = {}\n", name, text);
 }
 
-/// Those of a typed problem; others have them in their formulas.
+/// Writes the constraints of a typed problem. Other problems have them in their formulas.
 void write_constraints(std::ostream& out, const ProblemEntry& entry) {
   const FormulaTexts texts = formula_texts({entry.info.variant.begin(), entry.info.variant.end()});
   for (const std::string& text : texts.constraints) out << fmt::format("  constraint: {} = 0\n", text);
@@ -234,10 +234,10 @@ void write_problem(std::ostream& out, const ProblemEntry& entry) {
   }
 }
 
-/// A problem with a choice that is typed.
+/// Writes a problem of which one choice, e.g. the potential, can be typed.
 void write_typed_choice(std::ostream& out, const ProblemInfo& info) {
   out << fmt::format(
-      "{0} with {1} = \"formula\" and any {2}: the {1} is typed, e.g. {3} (its language: hamflow show formula)\n",
+      "{0} with {1} = \"formula\" and any {2}: you type the {1}, e.g. {3} (hamflow show formula explains formulas)\n",
       info.name, info.typed_choice, info.chart_key, info.formula);
   for (const OptionInfo& option : keys_of(info)) out << option_row(option);
   write_starts(out, info);
@@ -252,8 +252,8 @@ void write_method(std::ostream& out, const MethodSpec& spec) {
   out << "  needs " << entry.family->needs(entry.index) << "\n";
   const MethodAdvice said = advice(spec);
   if (!said.purpose.empty()) out << filled("for " + said.purpose);
-  if (!said.take.empty()) out << filled("take it where " + said.take);
-  if (!said.avoid.empty()) out << filled("not where " + said.avoid);
+  if (!said.take.empty()) out << filled("use it where " + said.take);
+  if (!said.avoid.empty()) out << filled("do not use it where " + said.avoid);
   const std::vector<OptionInfo>& options = entry.family->options;
   if (!options.empty()) out << "  keys of [method]:\n";
   for (const OptionInfo& option : options) out << option_row(option);
@@ -261,21 +261,21 @@ void write_method(std::ostream& out, const MethodSpec& spec) {
       << "\n";
 }
 
-/// The first line of what a list says of a method.
+/// The line of a method in the list of all methods.
 std::string method_row(const MethodEntry& entry) {
   const MethodInfo info = describe(MethodSpec{.name = entry.name});
   return fmt::format("{:<16} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
 }
 
-/// The few with which to begin, and for what; then the names of all others, family by family.
+/// Writes the recommended methods with their purposes; then the names of all others, family by family.
 void write_methods(std::ostream& out) {
   const std::vector<std::string> first = first_methods();
-  out << "Begin with one of these (hamflow show NAME says more):\n\n";
+  out << "Recommended methods (hamflow show NAME describes one):\n\n";
   for (const std::string& name : first) {
     const MethodInfo info = describe(MethodSpec{.name = name});
     out << fmt::format("{:<10} order {:<3} {}\n", name, info.order, advice(MethodSpec{.name = name}).purpose);
   }
-  out << "\nAll others (each with a line: hamflow list methods --all):\n";
+  out << "\nAll other methods (hamflow list methods --all describes each in one line):\n";
   for (const MethodFamily& family : method_families()) {
     std::vector<std::string> others;
     for (const std::string& name : family.methods) {
@@ -376,8 +376,10 @@ std::optional<CatalogueText> catalogue_text(const std::string& name) {
   if (write_keys(out, name)) return CatalogueText{out.str()};
   for (const FigureKindInfo& kind : figure_kinds()) {
     if (kind.name != name) continue;
-    return CatalogueText{fmt::format("{}\n  a figure: {}\n  hamflow plot RUN --kind {}; output.figures of a scenario\n",
-                                     name, kind.meaning, name)};
+    return CatalogueText{fmt::format(
+        "{0}\n  a figure: {1}\n  drawn by hamflow plot RUN --kind {0}, or by output.figures = [\"{0}\"] in a "
+        "scenario\n",
+        name, kind.meaning)};
   }
   const auto is_named = [&](const MethodEntry& entry) { return entry.name == name.substr(0, name.find('(')); };
   if (std::none_of(methods().begin(), methods().end(), is_named)) return std::nullopt;

@@ -17,17 +17,17 @@ CertifiedLog certify_file(const std::filesystem::path& file, const std::string& 
     throw Rejection({{.file = file.string(),
                       .line = static_cast<int>(columns.lines[*at]),
                       .column = 1,
-                      .message = fmt::format("found the time {} after {}; allowed times that rise strictly",
+                      .message = fmt::format("found the time {} after {}; allowed strictly increasing times",
                                              columns.time[*at], columns.time[*at - 1])}});
   }
   CertifiedLog found{certify_log(columns.time, columns.energy, scale), {}};
   if (columns.tables > 1) {
-    found.notes.push_back(fmt::format("{} has {} tables; the last one is read, {} rows", file.string(), columns.tables,
-                                      columns.time.size()));
+    found.notes.push_back(fmt::format("{} has {} tables; only the last one is read ({} rows)", file.string(),
+                                      columns.tables, columns.time.size()));
   }
   if (columns.cut_line > 0) {
-    found.notes.push_back(
-        fmt::format("{}:{} is cut: the last line has no end, and is left out", file.string(), columns.cut_line));
+    found.notes.push_back(fmt::format("{}:{}: the last line has no line end, so it may be incomplete; it is left out",
+                                      file.string(), columns.cut_line));
   }
   return found;
 }
@@ -52,7 +52,7 @@ std::string log_certificate_text(const LogCertificate& certificate) {
   if (certificate.energy_level) {
     text += fmt::format("energy error     {:.3g} of the scale {:.6g}\n", *certificate.energy_level, *certificate.scale);
   } else {
-    text += "energy error     unknown: the energy begins at 0; --scale gives what the error is a part of\n";
+    text += "energy error     unknown: the first energy is 0; give the energy to divide by with --scale\n";
   }
   const auto exponent = certificate.growth_exponent();
   text += exponent ? fmt::format("growth exponent  {:.2f} +- {:.2f}\n", *exponent, drift.growth_uncertainty)

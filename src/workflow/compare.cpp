@@ -21,10 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A number too small for a double is a text.
+/// A number that is too small for a double becomes a text.
 Json json_of(const Magnitude& x) { return x.text.empty() ? Json(x.value) : Json(x.text); }
 
-/// What can be tried where a run failed.
+/// The hint for a run that failed.
 std::string hint_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   Request request = asked.request;
   const std::vector<std::string> names = comparison_names(asked.methods);
@@ -60,8 +60,8 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   return row;
 }
 
-/// Of a gas in how many runs particles may pass through each other, told once, of the largest of their steps: from the
-/// start and, where it is known, the end of the motion itself.
+/// For a gas: one warning that tells in how many runs particles may pass through each other within a step. Its numbers
+/// are those of the largest such step, at the start and, if it is known, at the end of the exact motion.
 std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& asked) {
   std::vector<Warning> all;
   const auto problem_entry = find_problem(asked.request);
@@ -98,7 +98,7 @@ std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& a
 
 Json json_of(const Comparison& c, const std::string& status, const ComparisonRequest& asked,
              const std::vector<Warning>& warnings) {
-  // More digits than a JSON number may be read with: texts.
+  // Programs read JSON numbers as double, so numbers with more digits are written as texts.
   const std::size_t n = c.reference.end.size() / 2;
   const auto part = [&](std::size_t first) {
     Json numbers = Json::array();
@@ -121,7 +121,7 @@ Json json_of(const Comparison& c, const std::string& status, const ComparisonReq
            {"rows", Json::array()},
            {"winners", Json::array()}};
   if (c.reference.kind == "integration" && digits_beyond_double(c.arithmetic) == 0) {
-    // The uncertainty is that of all digits: q and p, rounded to double, may be further off than it.
+    // The uncertainty is valid for all digits; q and p, rounded to double, may have a larger error.
     const auto middle = c.reference.digits.begin() + static_cast<std::ptrdiff_t>(n);
     all["reference"]["digits"] = {{"q", std::vector<std::string>(c.reference.digits.begin(), middle)},
                                   {"p", std::vector<std::string>(middle, c.reference.digits.end())}};
@@ -147,7 +147,7 @@ ComparisonReport compare_methods(const ComparisonRequest& request,
   const bool any_done = std::any_of(points.begin(), points.end(), [](const ComparisonPoint& p) { return p.done(); });
   report.status = report.comparison.stopped ? "interrupted" : any_done ? "done" : "failed";
   if (report.status == "failed") {
-    report.message = "every run failed; the first: " + points.at(0).failure;
+    report.message = "every run failed; the first one: " + points.at(0).failure;
     report.hint = hint_of(points.at(0), request);
   }
   const std::vector<Warning> warnings = warnings_of(report.comparison, request);
@@ -170,7 +170,7 @@ WorkPrecision work_precision_of(const Comparison& c) {
     if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});
     last = p.method;
     WorkCurve& curve = data.curves.back();
-    if (p.order != curve.order) curve.order = 0;  // taylor takes the order that its tolerance asks for
+    if (p.order != curve.order) curve.order = 0;  // taylor chooses its order by the tolerance
     curve.evaluations.push_back(p.evaluations());
     curve.seconds.push_back(p.done() ? p.seconds : nothing);
     curve.error.push_back(p.done() ? p.error.value : nothing);

@@ -1,4 +1,4 @@
-// The request of a comparison: what was typed beside a scenario, read and checked.
+// Reads and checks the request of a comparison: the methods and steps given with a scenario.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ namespace hamflow {
 
 namespace {
 
-/// Methods and steps beside the scenario: what is compared, and what is wrong with it, a line each.
+/// Reads methods and steps into a request and collects notes and complaints.
 class RequestReader {
  public:
   RequestReader(const Scenario& scenario, const ComparisonInput& input)
@@ -28,9 +28,10 @@ class RequestReader {
     read_methods(input.methods, shared);
     if (varies_by_file_) {
       const std::string key = std::string("method.") + step_control_option;
-      complain_of(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by " +
-                           set_option(key, fixed_steps) +
-                           ": all methods of a comparison end at one time, steps of varying length do not");
+      complain_of(key,
+                  "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by " +
+                      set_option(key, fixed_steps) +
+                      ": all runs of a comparison must end at the same time, which steps of varying length do not");
     }
     request.request = scenario.request;
     request.t_end = scenario.dt * static_cast<double>(scenario.steps);
@@ -38,7 +39,7 @@ class RequestReader {
     if (!(std::abs(request.t_end) > 0)) {
       const std::string t_end = run_path(run_keys().t_end);
       complain_of(scenario.settings.contains(t_end) ? t_end : run_path(run_keys().steps),
-                  "found a run of no time; allowed one with at least a step");
+                  "found a run of length 0; allowed a run with at least one step");
     } else {
       read_steps(input.dts);
     }
@@ -54,7 +55,7 @@ class RequestReader {
   void complain(const std::string& key, const std::string& message) {
     complaints.push_back({scenario_.file, 0, 0, key, message});
   }
-  /// Where the key stands in the file, if it does.
+  /// Complains about a key of the file, with its line and column if it is in the file.
   void complain_of(const std::string& key, const std::string& message) {
     const auto set = scenario_.settings.find(key);
     const bool in_file = set != scenario_.settings.end();
@@ -80,7 +81,7 @@ class RequestReader {
         if (why_not.empty()) why_not = refused_walls(one);
         if (why_not.empty()) why_not = refused_by_size(one, scenario_.start_q.size());
         if (why_not.empty() && describe(method).varies_steps) {
-          why_not = "allowed step_control=fixed: steps of varying length do not end at the same time";
+          why_not = "allowed step_control=fixed, because steps of varying length do not end at the same time";
         }
         if (why_not.empty()) {
           request.methods.push_back(method);
@@ -98,7 +99,7 @@ class RequestReader {
     if (complaints.empty()) refuse_the_same(all);
   }
 
-  /// Rows are told apart by the names of their methods.
+  /// Refuses a method that is given twice, because rows are identified by the names of their methods.
   void refuse_the_same(const std::vector<std::string>& typed) {
     const std::vector<std::string> names = comparison_names(request.methods);
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -114,16 +115,16 @@ class RequestReader {
     return why_not.empty() ? "" : "problem.wall_rule = \"" + rule_of_walls(one) + "\" " + why_not;
   }
 
-  /// The run with this dt is then the single run, bit for bit.
+  /// Keeps the text of dt if it divides the time exactly. The run is then bit for bit a single run with this dt.
   void keep_dt(std::int64_t steps, const std::string& dt) {
     if (divides_exactly(dt, steps, request.t_end_text, request.request.arithmetic)) request.dts.emplace(steps, dt);
   }
 
-  /// The nearest number of steps that ends at t_end.
+  /// Finds for each dt the nearest number of steps that ends at t_end.
   void read_steps(const std::vector<std::string>& dts) {
     if (dts.empty()) {
       request.steps = usual_step_counts(scenario_.steps);
-      for (const std::int64_t steps : request.steps) {  // halves and doubles of dt, which no arithmetic rounds
+      for (const std::int64_t steps : request.steps) {  // dt times a power of 2 is exact in every arithmetic
         if (steps % scenario_.steps == 0) {
           keep_dt(steps, "(" + scenario_.request.dt + ")/" + std::to_string(steps / scenario_.steps));
         } else if (scenario_.steps % steps == 0) {
@@ -145,19 +146,20 @@ class RequestReader {
       }
       const double count = std::round(std::abs(request.t_end) / dt);
       if (!(dt > 0) || !(count < 0x1p53)) {
-        complain(option_name("dt"), "found '" + part + "'; allowed a number other than 0 that fits into t_end = " +
-                                        shortest(request.t_end) + " less than 2^53 times");
+        complain(option_name("dt"), "found '" + part +
+                                        "'; allowed a number other than 0 with fewer than 2^53 steps to " +
+                                        "t_end = " + shortest(request.t_end));
         continue;
       }
       if (backwards && part.find('-') != std::string::npos) {
-        notes.push_back("dt = " + part + " goes away from t_end = " + shortest(request.t_end) +
-                        "; dt = " + shortest(dt) + " is taken");
+        notes.push_back("dt = " + part + " leads away from t_end = " + shortest(request.t_end) +
+                        "; dt = " + shortest(dt) + " is used");
       }
       const auto steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
       const double fitting = std::abs(request.t_end) / static_cast<double>(steps);
       if (std::abs(fitting - dt) > 1e-9 * dt) {
         notes.push_back("dt = " + part + " does not divide t_end = " + shortest(request.t_end) +
-                        "; dt = " + shortest(fitting) + " is taken");
+                        "; dt = " + shortest(fitting) + " is used");
       }
       request.steps.push_back(steps);
       keep_dt(steps, (evaluate_number<double>(part) * request.t_end < 0 ? "-(" : "(") + part + ")");
@@ -170,7 +172,7 @@ class RequestReader {
   const bool varies_by_file_;
 };
 
-/// A method as [method] would have it, with what it takes of the scenario's.
+/// A method as a TOML table, including the options that it takes from [method] of the scenario.
 std::string as_table(const std::string& name, SharedMethodKeys& shared) {
   std::string table = "{ " + method_name_key().name + " = \"" + name + "\"";
   try {
@@ -181,14 +183,15 @@ std::string as_table(const std::string& name, SharedMethodKeys& shared) {
       if (own.options.contains(option.name) || !method.options.contains(option.name)) continue;
       table += ", " + option.name + " = " + toml_text(option, method.options.at(option.name));
     }
-  } catch (const Error&) {  // the reader complains about it
+  } catch (const Error&) {  // the reader of scenarios reports this error
   }
   for (const std::string& key : shared.unknown()) table += ", \"" + key + "\" = 0";
   return table + " }";
 }
 
-/// The file's own method is not run, and need not fit. What is wrong with the scenario is what stays with every method
-/// of the comparison; what comes with one of them alone is wrong with that one.
+/// Reads the scenario with any method of the comparison that it allows, since the file's own method is not run and may
+/// be wrong. An error that occurs with every method is an error of the scenario; an error that occurs with only one
+/// method is an error of that method.
 Scenario scenario_with_any(const ComparisonInput& input, std::vector<std::string>& notes) {
   const Reading own = read_scenario_text(input.text, input.name, input.sets);
   if (own.scenario) return *own.scenario;
@@ -196,14 +199,14 @@ Scenario scenario_with_any(const ComparisonInput& input, std::vector<std::string
   std::vector<Complaint> of_methods;
   SharedMethodKeys shared(input.text, input.sets);
   for (const std::string& name : input.methods) {
-    if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);  // no name at all
+    if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);  // not a name
     std::vector<std::string> sets = input.sets;
     sets.push_back("method=" + as_table(name, shared));
     const Reading with = read_scenario_text(input.text, input.name, sets);
     if (with.scenario) {
       const Complaint& first = own.complaints.front();
-      notes.push_back("the method of the file, which a comparison does not run, would be refused: " + first.key + ": " +
-                      first.message);
+      notes.push_back("the comparison does not run the method of the file, which would be refused: " + first.key +
+                      ": " + first.message);
       return *with.scenario;
     }
     const auto is_there = [](const std::vector<Complaint>& all, const Complaint& one) {
@@ -232,12 +235,12 @@ ComparisonReading read_comparison(const ComparisonInput& input) {
   const auto add = [&](const std::vector<std::string>& more) { notes.insert(notes.end(), more.begin(), more.end()); };
   const Scenario scenario = scenario_with_any(input, notes);
   RequestReader reader(scenario, input);
-  // What is not used of [method] is told of the methods that are compared.
+  // The reader below reports unused keys of [method] for the methods that are compared.
   std::vector<std::string> of_scenario = scenario.notes;
   std::erase_if(of_scenario, [](const std::string& note) { return note.starts_with("method."); });
   add(of_scenario);
-  add(unused_measures(scenario, "a comparison takes every step and looks at energies and ends"));
-  add(unused_figures(scenario, "a comparison draws with " + option_name("figure")));
+  add(unused_measures(scenario, "a comparison only measures energies and final states"));
+  add(unused_figures(scenario, "a comparison draws its figure with " + option_name("figure")));
   add(reader.notes);
   reading.complaints = std::move(reader.complaints);
   if (!reading.complaints.empty()) return reading;

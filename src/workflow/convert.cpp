@@ -31,7 +31,7 @@ std::string refused_method(const Scenario& scenario, const std::string& to) {
   return refusal(scenario.request.method, *in_coordinates(scenario.problem, to));
 }
 
-/// The start of a run in arithmetic beyond double, with all its digits.
+/// The start of a run with all digits, in arithmetic with more digits than double.
 DigitState start_digits(const Scenario& scenario, const std::string& to) {
   Frame frame;
   make_simulation(scenario.request)->look(frame);
@@ -40,7 +40,7 @@ DigitState start_digits(const Scenario& scenario, const std::string& to) {
                      {frame.digits.q, frame.digits.p});
 }
 
-/// The start as a table for `initial`, beyond double with all its digits.
+/// The start as a TOML table for `initial`, with all digits of the arithmetic.
 std::string start_table(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
   const auto table = [](const std::string& q, const std::string& p) { return "{ q = " + q + ", p = " + p + " }"; };
   if (longest_digits(scenario.request.arithmetic) == 0) return table(toml_list(start.q), toml_list(start.p));
@@ -51,7 +51,7 @@ std::string start_table(const Scenario& scenario, const std::string& to, const C
   return table(list(state.q), list(state.p));
 }
 
-/// Those of the problem itself come first, and stand in each of its charts.
+/// Whether output.observables has entries. The observables of the problem come first and exist in all its charts.
 bool has_own_observables(const Scenario& scenario) {
   return scenario.observables.size() > scenario.problem->info.observables.size();
 }
@@ -83,10 +83,10 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
   }
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", start_table(scenario, to, start)});
-    const std::string& velocities = before.velocities.name;  // of a start in its place
+    const std::string& velocities = before.velocities.name;  // belongs to the start that is replaced
     if (!velocities.empty() && is_given(velocities)) edits.push_back({"problem." + velocities, {}});
   }
-  // What is said in names that are there no more (left_out_of_converted).
+  // Removes the keys whose texts name coordinates that no longer exist (left_out_of_converted).
   if (!scenario.events.empty()) edits.push_back({run_path(run_keys().events), {}});
   if (scenario.section) {
     edits.push_back({run_path(run_keys().section), {}});
@@ -127,7 +127,7 @@ ConvertedScenario converted_scenario(const Scenario& scenario, const std::string
   const CanonicalState start = converted_start(scenario, to);
   const std::string why_not = refused_method(scenario, to);
   if (!why_not.empty() && sets.empty()) {
-    throw Error("in " + to + " coordinates " + why_not + "; give one of them with " +
+    throw Error("in " + to + " coordinates " + why_not + "; choose one with " +
                 set_option("method." + method_name_key().name, "..."));
   }
   const Scenario converted =

@@ -84,18 +84,18 @@ class SampleConversion {
 
  private:
   bool has_digits() const { return given_.find("digits/t") != nullptr; }
-  /// Where the samples may show too few turns.
+  /// A note if whole turns of an angle may be missing between samples; else empty.
   std::string note_of_turns(const StateConverter& convert, const Table& states) const {
     const double largest = std::max(convert.largest_turn(), fastest_turn(convert.turning(), states));
     if (!(largest > most_certain_turn)) return {};
     return fmt::format(
-        "{} changes by up to {:.3g} from one sample to the next; where that is more than half a turn, turns are "
-        "missing",
+        "{} changes by up to {:.3g} rad from one sample to the next; if that is more than half a turn, whole turns are "
+        "lost",
         joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; }), largest);
   }
 
-  /// In the run's arithmetic, with the whole turns that the doubles have been given. The doubles become those of the
-  /// digits.
+  /// Converts a state in the arithmetic of the run and adds the whole turns of the state in double. Then rounds the
+  /// digits to double into `in_double`.
   DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
     DigitState state = in_chart_of(*target_, *without_own_walls(scenario_.problem), scenario_.request.parameters,
                                    scenario_.request.arithmetic, given);
@@ -110,7 +110,8 @@ class SampleConversion {
     }
     return state;
   }
-  /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
+  /// The largest product of the rate of an angle and the time to the next sample. It tells whether whole turns are
+  /// lost.
   double fastest_turn(const std::vector<std::size_t>& angles, const Table& states) const {
     double most = 0;
     const std::span<const double> t = given_["t"].numbers();
@@ -139,7 +140,7 @@ class ConvertedRun::Impl {
       : file_(file), to_(to), run_(read_run_file(file, {.digits = true})), given_(run_.tables.samples) {
     if (given_.find("energy") == nullptr && given_.rows() > 0) {
       throw FileError(file.string() +
-                      " cannot be converted: it holds the states of a reversal; allowed the run.h5 of a run");
+                      " cannot be converted: it contains the states of a reversal; allowed the run.h5 of a run");
     }
     const std::string& text = run_.description.scenario;
     reading_ = read_scenario_text(text, file.string(), {});
@@ -204,7 +205,7 @@ class ConvertedRun::Impl {
       text += same_settings;
     } else {
       const std::string method = run_.description.method;
-      text += "# They were computed by " + method + ", with settings that these coordinates do not allow.\n";
+      text += "# They were computed by " + method + " with settings that these coordinates do not allow.\n";
       const std::string other = target_->constraint_form.empty() ? "cg" : "rattle";
       note = "the samples were computed by " + method + " with settings that " + to_ +
              " coordinates do not allow; the scenario in " + target.string() + " names " + other + " in double instead";
@@ -219,12 +220,12 @@ class ConvertedRun::Impl {
         file_, target,
         {.scenario = text, .coordinates = states_.names.q, .momenta = states_.names.p, .table = states_.table});
     if (!left_out.tables.empty()) {
-      note += fmt::format("{}not in {}: {}, states of the run in {} coordinates", note.empty() ? "" : "; ",
+      note += fmt::format("{}left out of {}: {}, which hold states in {} coordinates", note.empty() ? "" : "; ",
                           target.string(), fmt::join(left_out.tables, ", "), from_);
     }
     if (!left_out.others.empty()) {
-      note +=
-          fmt::format("{}not in {}: {}", note.empty() ? "" : "; ", target.string(), fmt::join(left_out.others, ", "));
+      note += fmt::format("{}left out of {}: {}", note.empty() ? "" : "; ", target.string(),
+                          fmt::join(left_out.others, ", "));
     }
     return note;
   }

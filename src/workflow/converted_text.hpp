@@ -1,4 +1,4 @@
-// The text of a scenario in other coordinates, before anybody asks whether its method can be used in them.
+// The text of a scenario in other coordinates. Whether its method can be used in them is checked elsewhere.
 #pragma once
 
 #include "hamflow/scenario/coordinates.hpp"
@@ -6,7 +6,7 @@
 
 namespace hamflow {
 
-/// An orbit or two bodies mean the same in both coordinates; a state is replaced by `start`.
+/// Replaces a given state by `start`. An orbit and two bodies are kept: they mean the same in both coordinates.
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start);
 
 }  // namespace hamflow

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 std::string drawn_by_sweep() { return "of a sweep: " + command_name("sweep --figure") + " draws it"; }
 
-/// What a folder is that has no samples to draw; empty where nothing tells.
+/// Describes a folder that has no samples to draw; empty if its files do not tell what it is.
 std::string what_is(const fs::path& folder) {
   std::error_code none;
   const auto has = [&](const char* name) { return fs::exists(folder / name, none); };
@@ -38,19 +38,19 @@ std::string what_is(const fs::path& folder) {
   if (has("compare.json")) {
     const fs::path figure = folder / "figures" / "work-precision.svg";
     return "the folder of a comparison" +
-           (fs::exists(figure, none) ? ", whose figures are " + figure.string() + ", .pdf and .png" : std::string());
+           (fs::exists(figure, none) ? "; its figures are " + figure.string() + ", .pdf and .png" : std::string());
   }
   if (has("reversal.bin")) {
-    return "a reversal that was cut short: hamflow reverse FILE --out " + folder.string() + " --resume goes on with it";
+    return "an interrupted reversal; continue it with hamflow reverse FILE --out " + folder.string() + " --resume";
   }
   if (has("trajectory.csv") || has("summary.json")) {
-    return "a run without the format h5, from which figures are drawn; " + output_path(output_keys().formats) +
-           " = [\"h5\", ...] keeps it";
+    return "a run without run.h5, which figures need; run it with " + output_path(output_keys().formats) +
+           " = [\"h5\", ...]";
   }
   return {};
 }
 
-/// Of bodies, or of one whose coordinates are x, y, z.
+/// The dimension of the space of bodies, or of one body with the coordinates x, y, z; else 0.
 std::size_t space_of(const Scenario& scenario, std::size_t size) {
   const ProblemEntry& problem = *scenario.problem;
   const Texts& parameters = scenario.request.parameters;
@@ -63,13 +63,13 @@ std::size_t space_of(const Scenario& scenario, std::size_t size) {
   return 0;
 }
 
-/// Of problems whose bodies everybody knows by name.
+/// The names of the bodies, for problems whose bodies have well-known names.
 std::vector<std::string> names_of_bodies(const std::string& problem) {
   if (problem == "solar-system") return {"Sun", "Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"};
   return {};
 }
 
-/// H - H0 of a run beyond double, formed with all its digits; empty for others.
+/// H - H0 computed with all digits, for arithmetic with more digits than double; else empty.
 std::vector<double> energy_differences(const Table& samples) {
   const Column* const energy = samples.find("digits/energy");
   if (energy == nullptr) return {};
@@ -80,19 +80,19 @@ std::vector<double> energy_differences(const Table& samples) {
   return differences;
 }
 
-/// The values of a column; none where there is no such column.
+/// The values of a column; empty if there is no such column.
 std::vector<double> values_of(const Table& table, const char* name) {
   const Column* const column = table.find(name);
   return column == nullptr ? std::vector<double>() : column->part(0);
 }
-/// Each coordinate of a column of states; none where there is no such column.
+/// Each coordinate of a column of states; empty if there is no such column.
 std::vector<std::vector<double>> by_coordinate(const Table& table, const char* name) {
   std::vector<std::vector<double>> all;
   const Column* const column = table.find(name);
   for (std::size_t i = 0; column != nullptr && i < column->info().width; ++i) all.push_back(column->part(i));
   return all;
 }
-/// The columns of a group: NAME, or NAME_1, NAME_2, ... of several numbers a row.
+/// The columns of a group: NAME, or NAME_1, NAME_2, ... if a row has several numbers.
 std::vector<std::pair<std::string, std::vector<double>>> columns_in(const Table& table, const std::string& group) {
   std::vector<std::pair<std::string, std::vector<double>>> all;
   for (const Column& column : table.columns()) {
@@ -114,7 +114,7 @@ void add_section(const Section& section, const StateNames& names, const Table& p
   data.section_text = section_text(section, names);
 }
 
-/// The samples and the bounces, in the order of their times; nothing where bounces are not located.
+/// The samples and the bounces, in the order of their times; empty if bounces are not located.
 FigureSamples path_of(const Scenario& scenario, const FigureSamples& samples, const Table& bounces) {
   const auto& walls = scenario.request.walls;
   if (!walls || walls->rule != WallRule::event || bounces.rows() == 0) return {};
@@ -145,12 +145,12 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenar
     facts.emplace_back("walls", wall_rules()[static_cast<std::size_t>(walls->rule)]);
   }
   for (const auto& [key, value] : request.variant) {
-    if (!scenario.problem->structure) facts.emplace_back(key, value);  // a typed problem's are long texts
+    if (!scenario.problem->structure) facts.emplace_back(key, value);  // for a typed problem these are long formulas
   }
-  const std::vector<std::string> changes = changes_on_the_way(scenario.text);  // one fact of the whole run no more
+  const std::vector<std::string> changes = changes_during_run(scenario.text);  // a changed setting is left out
   const auto sets_length = [](const std::string& change) { return change.starts_with(run_keys().dt.name + " = "); };
-  const auto turns_back = [](const std::string& change) { return change == momenta_negated; };
-  const auto is_of_method = [&](const std::string& change) { return !sets_length(change) && !turns_back(change); };
+  const auto negates = [](const std::string& change) { return change == momenta_negated; };
+  const auto is_of_method = [&](const std::string& change) { return !sets_length(change) && !negates(change); };
   if (std::none_of(changes.begin(), changes.end(), is_of_method))
     facts.emplace_back("method", describe(request.method).name);
   if (std::none_of(changes.begin(), changes.end(), sets_length)) facts.emplace_back("dt", request.dt);
@@ -166,7 +166,7 @@ std::string fact_text(const std::pair<std::string, std::string>& fact) {
   return fact.first + " = " + fact.second;
 }
 
-/// What stands in every title, where it does not differ.
+/// Whether a fact is printed in the title if it is the same for all runs.
 bool in_title(const std::pair<std::string, std::string>& fact) {
   if (fact.first == "arithmetic") return fact.second != "double";
   return fact.first == "problem" || fact.first == "method" || fact.first == "dt";
@@ -189,7 +189,7 @@ FigureParticles particles_of(const Scenario& scenario, std::size_t space, Positi
   return all;
 }
 
-/// Of many particles it is the work of a step, and figures of places do without.
+/// Whether a figure needs the energy. For many particles it costs as much as a step, so figures of positions skip it.
 bool show_energy(const std::vector<std::string>& kinds) {
   return std::any_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
     return kind != "particles" && kind != "tracks" && kind != "radial" && !kind.empty();
@@ -208,7 +208,7 @@ fs::path stored_run_in(const fs::path& run) {
   if (fs::exists(run / "reverse.h5", none)) return run / "reverse.h5";
   const std::string other = what_is(run);
   if (!other.empty())
-    throw FileError((run / "run.h5").string() + " cannot be read: there is no such file; this is " + other);
+    throw FileError((run / "run.h5").string() + " cannot be read: the file does not exist; the folder is " + other);
   return run / "run.h5";
 }
 
@@ -264,7 +264,7 @@ RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const
   data.energy_difference = energy_differences(samples);
   const bool reversal = data.energy.empty();
   data.every_step = !reversal && static_cast<std::int64_t>(data.t.size()) > scenario.steps;
-  // Samples at given times need not reach the end.
+  // Samples at given times may stop before the end of the run.
   if (!scenario.record.empty() && !reversal) data.end = static_cast<double>(scenario.steps) * scenario.dt;
   if (show_energy(kinds) || !data.particles.gas) {
     data.energy_scale = make_simulation(scenario.request)->energy().scale_at_start;
@@ -280,7 +280,7 @@ RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const
   }
   data.observables = columns_in(samples, "observables/");
   data.invariants = columns_in(samples, "invariants/");
-  // The level curve of H goes on behind walls, and is none of the motion where H changes with t.
+  // The level curve of H continues behind walls, and it is not a trajectory if H depends on t.
   if (problem.dimension == 1 && !data.has_time && !has_hard_walls(scenario.request)) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
@@ -328,22 +328,22 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
   };
 }
 
-FigureSamples opening_of(const RunForFigure& run) {
+FigureSamples first_steps_of(const RunForFigure& run) {
   const FigureData& samples = run.data;
   const Scenario& scenario = run.scenario;
-  if (samples.q.empty()) return {};                           // those of many particles are not read one by one
-  if (!changes_on_the_way(scenario.text).empty()) return {};  // the first steps of other settings
+  if (samples.q.empty()) return {};                           // coordinates of many particles are not read
+  if (!changes_during_run(scenario.text).empty()) return {};  // the first steps had other settings
   const double forward = scenario.dt < 0 ? -1 : 1;
   const std::size_t n = samples.q.size();
   const std::int64_t most = digits_beyond_double(scenario.request.arithmetic) > 0 ? 1000 : 20000;
   const std::int64_t steps =
       std::min({most, scenario.steps, std::max<std::int64_t>(200, 400000 / static_cast<std::int64_t>(n * n))});
   const std::unique_ptr<Simulation> simulation = make_simulation(scenario.request);
-  FigureSamples opening;
-  opening.q.resize(n);
-  opening.p.resize(n);
-  // A run that was cut short, or ended by an event, has its end at the last sample; samples at given times need not
-  // reach it, and a reversal's first half is over before its turn.
+  FigureSamples first_steps;
+  first_steps.q.resize(n);
+  first_steps.p.resize(n);
+  // The last sample is the end of a run, also of a run that was interrupted or stopped by an event. Samples at given
+  // times may end earlier, and so may the samples of a reversal.
   const bool open = !scenario.record.empty() && std::none_of(scenario.events.begin(), scenario.events.end(),
                                                              [](const UserEvent& event) { return event.stops; });
   const double last =
@@ -351,12 +351,12 @@ FigureSamples opening_of(const RunForFigure& run) {
   std::size_t sample = 0;
   Frame frame;
   const auto& walls = scenario.request.walls;
-  if (walls && walls->rule == WallRule::event) {  // a line has its corners there
+  if (walls && walls->rule == WallRule::event) {  // the drawn path has corners at the bounces
     simulation->tell_bounces([&](const Bounce& bounce) {
-      opening.t.push_back(bounce.time);
+      first_steps.t.push_back(bounce.time);
       for (std::size_t i = 0; i < n; ++i) {
-        opening.q[i].push_back(bounce.q[i]);
-        opening.p[i].push_back(bounce.p[i]);
+        first_steps.q[i].push_back(bounce.q[i]);
+        first_steps.p[i].push_back(bounce.p[i]);
       }
     });
   }
@@ -368,15 +368,15 @@ FigureSamples opening_of(const RunForFigure& run) {
     const bool is_sample = sample < samples.t.size() && samples.t[sample] == frame.time;
     for (std::size_t i = 0; i < n; ++i) {
       if (is_sample && (samples.q[i][sample] != frame.q[i] || samples.p[i][sample] != frame.p[i])) return {};
-      opening.q[i].push_back(frame.q[i]);
-      opening.p[i].push_back(frame.p[i]);
+      first_steps.q[i].push_back(frame.q[i]);
+      first_steps.p[i].push_back(frame.p[i]);
     }
-    opening.t.push_back(frame.time);
+    first_steps.t.push_back(frame.time);
   }
-  return opening;
+  return first_steps;
 }
 
-void tell_apart(std::vector<RunForFigure>& runs) {
+void set_titles_and_labels(std::vector<RunForFigure>& runs) {
   const auto is_common = [&](const std::pair<std::string, std::string>& fact) {
     return std::all_of(runs.begin(), runs.end(), [&](const RunForFigure& run) {
       return std::find(run.facts.begin(), run.facts.end(), fact) != run.facts.end();
@@ -404,7 +404,7 @@ void tell_apart(std::vector<RunForFigure>& runs) {
     if (labels.count(run.data.label) == 1 && !run.data.label.empty()) continue;
     run.data.label += (run.data.label.empty() ? "" : ", ") + run.name;
   }
-  constexpr std::size_t longest = 44;  // that one column of a journal has room for
+  constexpr std::size_t longest = 44;  // fits into one column of a journal
   for (RunForFigure& run : runs) {
     if (run.data.label.size() > longest) run.data.label = run.name;
   }

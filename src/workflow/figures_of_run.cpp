@@ -11,7 +11,7 @@ namespace hamflow {
 
 namespace {
 
-/// Options that no run has to be read for.
+/// Checks the options that can be checked before a run is read.
 FigureOptions options_of(const FigureRequest& request) {
   FigureOptions options{
       .x = request.x, .y = request.y, .at = request.at, .page = {.dpi = request.dpi, .title = request.title}};
@@ -26,7 +26,7 @@ FigureOptions options_of(const FigureRequest& request) {
 
 namespace {
 
-/// Whether the kind draws a path, of which the first steps tell more than samples far apart.
+/// Whether the kind draws a path. Then every one of the first steps is drawn, since samples may be far apart.
 bool draws_path(const std::string& kind) { return kind == "orbit" || kind == "phase"; }
 
 }  // namespace
@@ -38,10 +38,10 @@ void draw_figure(const FigureRequest& request) {
   for (std::size_t i = 0; request.note && i < runs.size(); ++i) {
     for (const std::string& note : runs[i].notes) request.note(request.runs[i].string() + ": " + note);
   }
-  tell_apart(runs);
+  set_titles_and_labels(runs);
   const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(runs.at(0).data));
   for (RunForFigure& run : runs) {
-    if (draws_path(kind)) run.data.opening = opening_of(run);
+    if (draws_path(kind)) run.data.first_steps = first_steps_of(run);
     add_start(run, figure.options.at);
     figure.runs.push_back(std::move(run.data));
   }
@@ -57,9 +57,9 @@ figures::Page figure_page(const Scenario& scenario, const RunTables& tables, con
       request.kind.empty() ? std::vector<std::string>() : std::vector<std::string>{request.kind};
   std::vector<RunForFigure> runs;
   runs.push_back(for_figure(scenario, tables, "run", kinds));
-  tell_apart(runs);
+  set_titles_and_labels(runs);
   const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(runs[0].data));
-  if (draws_path(kind)) runs[0].data.opening = opening_of(runs[0]);
+  if (draws_path(kind)) runs[0].data.first_steps = first_steps_of(runs[0]);
   add_start(runs[0], figure.options.at);
   figure.runs.push_back(std::move(runs[0].data));
   return page_of(figure, kind);
@@ -77,23 +77,23 @@ std::vector<std::string> draw_figures(const Scenario& scenario, const std::files
   std::vector<RunForFigure> run;
   run.push_back(tables != nullptr ? for_figure(scenario, *tables, folder, scenario.figures)
                                   : read_for_figure(folder, scenario.figures));
-  tell_apart(run);
+  set_titles_and_labels(run);
   const bool has_path = std::any_of(scenario.figures.begin(), scenario.figures.end(), draws_path);
-  const FigureSamples opening = has_path ? opening_of(run[0]) : FigureSamples{};
+  const FigureSamples first_steps = has_path ? first_steps_of(run[0]) : FigureSamples{};
   Figure figure{{std::move(run[0].data)}};
   std::vector<figures::Drawing> drawings;
   for (const std::string& kind : scenario.figures) {
     try {
-      figure.runs[0].opening = draws_path(kind) ? opening : FigureSamples{};
+      figure.runs[0].first_steps = draws_path(kind) ? first_steps : FigureSamples{};
       figures::Drawing& drawing = drawings.emplace_back(figures::Drawing{page_of(figure, kind), {}});
       for (const char* format : {".svg", ".pdf", ".png"}) {
         const std::filesystem::path& file = drawing.files.emplace_back(folder / "figures" / (kind + format));
-        // In the folder of a run a link is replaced, and what it leads to stays.
+        // A symbolic link in the folder of a run is replaced; its target is kept.
         std::error_code none;
         if (std::filesystem::is_symlink(file, none)) std::filesystem::remove(file, none);
       }
-    } catch (const Error& error) {  // the run is done all the same, and so are the others
-      missing.push_back("a figure is not drawn: " + std::string(error.what()));
+    } catch (const Error& error) {  // the run is complete, and the other figures can be drawn
+      missing.push_back("the figure " + kind + " was not drawn: " + std::string(error.what()));
     }
   }
   figures::draw(drawings);

@@ -80,7 +80,7 @@ class JsonWriter {
   static Json written(const T& x) {
     if constexpr (requires(JsonWriter ar, T & y) { fields(ar, y); }) {
       JsonWriter ar;
-      fields(ar, const_cast<T&>(x));  // NOLINT: one list of fields for both directions; a JsonWriter changes none
+      fields(ar, const_cast<T&>(x));  // NOLINT: one list of fields serves both directions; a JsonWriter changes nothing
       return ar.take();
     } else {
       return Json(x);

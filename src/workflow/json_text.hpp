@@ -1,4 +1,5 @@
-// JSON as text and back, compiled once: its reader and its writer are most of what a unit compiles of that library.
+// Writes JSON as text and reads it. These functions are compiled once, because the reader and the writer are the
+// largest part of the JSON library.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,15 +7,15 @@
 
 namespace hamflow {
 
-/// @param indent of each level; -1: one line. What is no UTF-8 is replaced.
+/// @param indent of each level; -1: one line. Bytes that are not UTF-8 are replaced.
 std::string written_json(const nlohmann::ordered_json& json, int indent = -1);
-/// As files and --json have it: each key on a line of its own.
+/// The format of files and of --json: each key on a separate line.
 std::string json_text(const nlohmann::ordered_json& json);
-/// @throws nlohmann::json::exception what is no JSON
+/// @throws nlohmann::json::exception if the text is not JSON
 nlohmann::ordered_json read_json(const std::string& text);
-/// The same, discarded where it is no JSON.
+/// The same, but returns a discarded value if the text is not JSON.
 nlohmann::ordered_json read_if_json(const std::string& text);
-/// Likewise, equal where the keys of objects stand in another order.
+/// The same, but the order of keys does not matter when two values are compared.
 nlohmann::json read_json_by_keys(const std::string& text);
 
 }  // namespace hamflow

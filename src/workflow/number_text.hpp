@@ -1,4 +1,4 @@
-// Numbers of summaries for people. What is not finite is "nan" or another word.
+// Formats the numbers of text summaries. A number that is not finite becomes "nan" or another word.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace hamflow {
 
-/// @param form of fmt, e.g. "{:.6g}", for a number that has no text of its own
-/// @param none in place of what is not finite
+/// @param form format of fmt, e.g. "{:.6g}", for a number without a text of all its digits
+/// @param none the word for a number that is not finite
 std::string number_text(const LongNumber& x, const char* form, const char* none = "nan");
-/// Of a quantity of the motion, which may well be infinite.
+/// A quantity of the motion, which may be infinite.
 inline std::string value_text(const LongNumber& x, const char* form) { return number_text(x, form, "not finite"); }
-/// Numbers with commas between them, with all digits.
-/// @param digits in place of the numbers, where there are any   @param none see number_text
+/// Numbers with all digits, separated by commas.
+/// @param digits texts to print in place of the numbers, if not empty   @param none see number_text
 std::string list_text(const std::vector<double>& numbers, const std::vector<std::string>& digits = {},
                       const char* none = "not finite");
 
-/// A number with the digits that it has beyond double.
+/// A number with the text of all its digits.
 LongNumber with_digits(double x, const std::string& digits);
 inline LongNumber time_of(const StateAtTime& state) { return with_digits(state.t, state.digits.time); }
 

@@ -16,14 +16,14 @@ namespace hamflow {
 namespace {
 
 constexpr int most_digits = 1000;
-/// Quadratures in more digits take seconds.
+/// With more digits, quadratures would take seconds.
 constexpr int most_digits_of_integrals = 60;
 
 Mp power_of_ten(int exponent) { return parse_decimal<Mp>("1e" + std::to_string(exponent)); }
 
-/// int_0^1 f(x, 1 - x) dx of two functions by the double exponential rule, both arguments to their own relative
-/// precision; halved until it changes by less than `tolerance`, relative.   [TakahasiMori1974]
-/// @param nearest to an end: what lies between is nothing beside the tolerance
+/// Computes int_0^1 f(x, 1 - x) dx for two functions by the double exponential rule. x and 1 - x are both given with
+/// full relative precision. The step is halved until the relative change is below `tolerance`.   [TakahasiMori1974]
+/// @param nearest distance from the ends at which the sum stops; the rest is negligible compared with the tolerance
 template <class F>
 std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolerance, const Mp& nearest) {
   const Mp pi = pi_value<Mp>();
@@ -54,8 +54,7 @@ std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolera
   return std::nullopt;
 }
 
-/// The radial motion with energy E and angular momentum l. H is evaluated by the problem itself, in the digits of the
-/// scope.
+/// The radial motion with energy E and angular momentum l. The problem evaluates H, in the digits of the present scope.
 class Orbit {
  public:
   Orbit(const Scenario& scenario, int digits) : digits_(digits), at_(scenario.request) {
@@ -77,7 +76,8 @@ class Orbit {
     size_ = kinetic + abs(energy_ - kinetic);
     polar_ = polar;
     at_.start = {};
-    // A strength of V that follows from the start has the digits of double among the parameters.
+    // If the strength of V follows from the start, the parameters hold it only to double precision. It is corrected
+    // here.
     const Mp given = energy_ - kinetic;
     const Mp found = potential(radius_);
     if (!(found == Mp(0))) strength_ = given / found;
@@ -111,10 +111,10 @@ class Orbit {
     return newton(r, [&](const Mp& x) { return Mp(slope(x) / curvature(x)); });
   }
 
-  /// From pericentre to apocentre: time and phase. r = r1 + (r2 - r1) sin^2(pi x/2).
+  /// Time and phase from pericentre to apocentre, by the substitution r = r1 + (r2 - r1) sin^2(pi x/2).
   std::optional<std::pair<Mp, Mp>> between(const Mp& r1, const Mp& r2, const Mp& tolerance) {
     const Mp quarter = pi_value<Mp>() / Mp(2);
-    const Mp nearest = power_of_ten(-digits_ / 3);  // distances of radii are squares of it
+    const Mp nearest = power_of_ten(-digits_ / 3);  // r - r1 and r2 - r are of the order of its square
     return integral_from_ends(
         [&](const Mp& x, const Mp& rest) {
           const Mp s = sin(quarter * x);
@@ -127,7 +127,7 @@ class Orbit {
         },
         tolerance, nearest);
   }
-  /// From pericentre to infinity: the phase. 1/r = x/r1.
+  /// The phase from pericentre to infinity, by the substitution 1/r = x/r1.
   std::optional<Mp> to_infinity(const Mp& r1, const Mp& tolerance) {
     const auto phase = integral_from_ends(
         [&](const Mp& x, const Mp&) {
@@ -140,7 +140,7 @@ class Orbit {
   }
 
  private:
-  /// As the parameters have it.
+  /// V with the strength that the parameters have.
   Mp potential(const Mp& r) {
     at_.start.q = {written_digits(r), "0"};
     at_.start.p = {"0", "0"};
@@ -155,7 +155,7 @@ class Orbit {
       const Mp change = step(x);
       x = x - change;
       if (!(x > begin / Mp(2) && x < begin * Mp(2))) return std::nullopt;
-      if (!(abs(change) > settled * x)) {  // a third of the digits: twice more, and there are all of them
+      if (!(abs(change) > settled * x)) {  // a third of the digits is correct; two more iterations give all
         for (int more = 0; more < 2; ++more) x = x - step(x);
         return x;
       }
@@ -186,14 +186,14 @@ constexpr OrbitEntry orbit_entries[] = {{"r_min", &Found::r_min, &OrbitSummary::
                                         {"apsidal_angle", &Found::apsidal_angle, &OrbitSummary::apsidal_angle},
                                         {"radial_period", &Found::radial_period, &OrbitSummary::radial_period}};
 
-/// @param integrals the apsidal angle and the radial period too
+/// @param integrals whether to compute the apsidal angle and the radial period, too
 Found found_of(Orbit& orbit, const OrbitSummary& known, const Mp& tolerance, bool integrals) {
   const auto is_near = [](double x) { return std::isfinite(x) && x > 0; };
   const double r_min = known.r_min, r_max = known.r_max, circle = known.circular_radius;
   Found found;
   if (is_near(circle)) found.circular_radius = orbit.circular_radius(Mp(circle));
   if (known.type == "circle" || orbit.momentum() == Mp(0)) {
-    // A circle, to the digits of the run, where V_eff has its extremum at the start.
+    // The orbit is a circle to the digits of the run if V_eff has its extremum at the start.
     if (found.circular_radius && abs(*found.circular_radius - orbit.radius()) <= tolerance * orbit.radius()) {
       found.r_min = found.r_max = orbit.radius();
     }
@@ -213,7 +213,7 @@ Found found_of(Orbit& orbit, const OrbitSummary& known, const Mp& tolerance, boo
   return found;
 }
 
-/// In so many digits: differences of V_eff near its zeros lose two thirds of more.
+/// Computes with three times the digits, because differences of V_eff near its zeros lose two thirds of them.
 class Digits {
  public:
   Digits(const Scenario& scenario, int digits)
@@ -228,8 +228,8 @@ class Digits {
   Orbit orbit;
 };
 
-/// What moving the energy and the angular momentum by a part of |T| + |V| and of itself makes of each entry, over that
-/// part; 0 where it is not known.
+/// The sensitivity of each entry to the start: its change when the energy moves by a fraction of |T| + |V| and the
+/// angular momentum by the same fraction of itself, divided by this fraction; 0 if it is not known.
 std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& scenario, const OrbitSummary& known) {
   Digits in(scenario, 20);
   const Mp part = power_of_ten(-12);
@@ -264,7 +264,7 @@ void add_orbit_digits(const Scenario& scenario, OrbitSummary& orbit) {
       if (!x || !(changes[i] > 0)) continue;
       const double size = static_cast<double>(abs(*x));
       const double moved = std::pow(10.0, -digits) * changes[i] + std::pow(10.0, -in_digits) * size;
-      orbit.uncertainty[i].second = std::max(moved, std::numeric_limits<double>::min());  // it is not 0
+      orbit.uncertainty[i].second = std::max(moved, std::numeric_limits<double>::min());  // must not underflow to 0
       const MpDigits rounded(in_digits);
       LongNumber& number = orbit.*orbit_entries[i].number;
       number.text = written_digits(*x + Mp(0));

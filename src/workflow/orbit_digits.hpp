@@ -1,4 +1,4 @@
-// The entries `orbit` of a run beyond double, with its digits.
+// Computes the `orbit` entries of the summary with the digits of the run, for arithmetic with more digits than double.
 #pragma once
 
 #include "hamflow/scenario/scenario.hpp"
@@ -6,9 +6,9 @@
 
 namespace hamflow {
 
-/// Gives the radii, the apsidal angle and the radial period of an orbit that was found from the start in double the
-/// digits of the run, and adds how far one rounding of the start, in the run's arithmetic, moves each. A number that is
-/// not finite or not found keeps its double, and its uncertainty is not known.
+/// Refines the radii, the apsidal angle and the radial period, which are given in double, to the digits of the run.
+/// Adds as uncertainty the change of each by one rounding of the start in the run's arithmetic. A number that is not
+/// finite or not found keeps its double and has no uncertainty.
 void add_orbit_digits(const Scenario& scenario, OrbitSummary& orbit);
 
 }  // namespace hamflow

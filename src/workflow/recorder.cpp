@@ -14,7 +14,7 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
     return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
   };
   if (from != nullptr) {
-    // A checkpoint is written after the samples of its step, but without one that is there only for the end.
+    // A checkpoint is written after the samples of its step. It excludes a sample written only because the run ended.
     const bool step_is_written = by_times() || from->step % scenario.record_every == 0;
     first_ = from->step + (step_is_written ? 1 : 0);
     last_ = step_is_written ? from->step : -1;
@@ -63,7 +63,7 @@ Verdict Recorder::observe(const Frame& frame) {
   if (rows_) rows_->append(frame, observables);
   if (h5_) h5_->flush_if_many();
   if (csv_) csv_->append(frame, observables);
-  if (!is_for_the_end) restart_range_();  // a longer run has no such sample, and goes on with the range
+  if (!is_for_the_end) restart_range_();  // a longer run would not have this sample, so it continues the range
   last_ = frame.step;
   ++written_;
   return Verdict::go_on;
@@ -120,7 +120,7 @@ void Recorder::mark(Checkpoint& checkpoint) {
   const Sizes now = before_the_end_.value_or(sizes());
   checkpoint.rows = now.rows;
   const RowCounts counts = rows_ ? rows_->counts() : RowCounts{};
-  checkpoint.section_rows = counts.section;  // a point of the section is there, however the run goes on
+  checkpoint.section_rows = counts.section;  // section points do not depend on how the run continues
   checkpoint.wall_rows = counts.bounces;
   checkpoint.event_rows = counts.events;
   checkpoint.csv_bytes = now.csv_bytes;

@@ -1,5 +1,5 @@
-// Records a run: its samples, which are the start, every n-th step and the last one, or the states at given times; and
-// points of sections, events and bounces. With a folder they go to its files, without one they stay in memory.
+// Records a run: samples (the start, every n-th step and the last one, or the states at given times), section points,
+// events and bounces. With a folder they are written to its files, without one they stay in memory.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ namespace hamflow {
 class Recorder final : public Observer {
  public:
   /// @param folder empty: nothing is written
-  /// @param identity of the run   @param from where the run goes on; null: at its start
-  /// @param restart_range Simulation::restart_energy_range(): a sample has the range since the one before
+  /// @param identity of the run   @param from the checkpoint of a resumed run; null: the run starts
+  /// @param restart_range Simulation::restart_energy_range(); a sample has the range since the sample before
   /// @throws FileError
   Recorder(const Scenario& scenario, const std::filesystem::path& folder, const std::string& identity,
            const Checkpoint* from, std::function<void()> restart_range);
@@ -28,28 +28,28 @@ class Recorder final : public Observer {
   std::span<const std::string> times(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
   void append(const SectionPoint& point);
-  /// As long as the scenario wants more rows.
+  /// Records a bounce, up to the number that the scenario allows.
   void append(const Bounce& bounce);
-  /// Whether there is room for more of them.
+  /// Whether more bounces are to be recorded.
   bool wants_bounces() const;
   void append(std::size_t event, std::int64_t step, const SectionPoint& point);
 
-  /// The state in which a run by steps ended early is a sample too.
+  /// Adds the last state as a sample if a run with samples by steps ended early.
   void finish(const Simulation& simulation);
   void flush();
   void flush_if_due();
-  /// The lengths that the files would have if the run had no end yet go into the checkpoint; the files are written and
-  /// forced to the disk. This is the recorder's archive(): it is read before the files are opened.
+  /// Forces the files to the disk and writes their lengths into the checkpoint, without a sample that exists only
+  /// because the run ended. This replaces archive(), since the lengths are read before the files are opened.
   void mark(Checkpoint& checkpoint);
-  /// All that was recorded; null where it is not all in memory.
+  /// All records; null if not all of them are in memory.
   const RunTables* tables() const { return rows_ && rows_->complete() ? &rows_->tables() : nullptr; }
-  /// Ends the files. What is in memory stays.
+  /// Closes the files. The tables in memory are kept.
   void close() {
     h5_.reset();
     csv_.reset();
   }
   RunTables take_tables() { return rows_ ? rows_->take() : RunTables{}; }
-  /// The time of the sample at which a run stopped for want of a partial step; else nothing.
+  /// The time of the sample whose partial step failed and ended the run; else nullopt.
   std::optional<std::string> failed_at(std::int64_t step) const;
 
  private:
@@ -64,13 +64,13 @@ class Recorder final : public Observer {
   const Scenario& scenario_;
   std::filesystem::path folder_;
   std::function<void()> restart_range_;
-  std::optional<RunRows> rows_;  // none where only trajectory.csv is written
+  std::optional<RunRows> rows_;  // nullopt if only trajectory.csv is written
   std::unique_ptr<RunFile> h5_;
   std::unique_ptr<CsvFile> csv_;
-  std::int64_t first_ = 0;               // step from which samples are still to be written
+  std::int64_t first_ = 0;               // first step whose samples are still to be written
   std::int64_t last_ = -1;               // step of the last sample
-  std::size_t written_ = 0;              // of the given times
-  std::optional<Sizes> before_the_end_;  // where the last sample is there only because the run ended
+  std::size_t written_ = 0;              // number of given times that were written
+  std::optional<Sizes> before_the_end_;  // sizes without the last sample, if it exists only because the run ended
 };
 
 }  // namespace hamflow

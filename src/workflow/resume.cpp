@@ -27,18 +27,18 @@ std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std:
 std::string file_key(const Scenario& scenario) { return "problem." + scenario.problem->info.file_key; }
 std::string contents_key(const Scenario& scenario) { return file_key(scenario) + ": contents"; }
 
-/// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
+/// The keys of a run with their values. If the start is read from a file, a further key holds the hash of its contents.
 std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   std::map<std::string, Setting> all = scenario.settings;
   if (!scenario.start_contents) return all;
   const auto file = all.find(file_key(scenario));
   const Setting where = file == all.end() ? Setting{{}, 1, 1} : file->second;
-  all.emplace(contents_key(scenario), Setting{"those with the hash " + fmt::format("{:016x}", *scenario.start_contents),
+  all.emplace(contents_key(scenario), Setting{"contents with hash " + fmt::format("{:016x}", *scenario.start_contents),
                                               where.line, where.column});
   return all;
 }
 
-/// A value on one line; of a long list its first and last entries, and how many there are.
+/// A value on one line. A long list is shortened to its first and last entries and their number.
 std::string shown(const std::string& value) {
   constexpr std::size_t longest = 120, kept = 40;
   std::string line;
@@ -85,14 +85,14 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     const auto there = before.find(key);
     if (there == before.end()) {
       complain(key, "found " + found + "; allowed with " + option_name("resume") +
-                        " without this key, as when the run began");
+                        ": leave this key out, as when the run began");
     } else if (there->second != value) {
       complain(key, "found " + found + "; allowed with " + option_name("resume") + " " + shown(there->second) +
                         ", as when the run began");
     }
   }
   for (const auto& [key, value] : before) {
-    // The file is gone, and the start is that of run.h5.
+    // The file no longer exists; the start is read from run.h5.
     if (key == contents_key(scenario) && !scenario.start_contents) continue;
     if (is_free_on_resume(key) || settings.contains(key)) continue;
     complain(key, "missing; allowed with " + option_name("resume") + " " + shown(value) + ", as when the run began");
@@ -101,7 +101,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     const std::string by_time = run_path(run_keys().t_end);
     complain(scenario.settings.contains(by_time) ? by_time : run_path(run_keys().steps),
              "found " + std::to_string(scenario.steps) + " steps; allowed with " + option_name("resume") +
-                 " at least the " + std::to_string(checkpoint.step) + " that were taken");
+                 " at least " + std::to_string(checkpoint.step) + ", which were taken already");
   }
   if (checkpoint.version != HAMFLOW_VERSION) {
     complain("hamflow", "found version " HAMFLOW_VERSION "; allowed with " + option_name("resume") + " version " +
@@ -110,7 +110,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   return all;
 }
 
-Checkpoint beginning_of(const Scenario& scenario, const std::string& identity) {
+Checkpoint first_checkpoint(const Scenario& scenario, const std::string& identity) {
   Checkpoint checkpoint;
   checkpoint.identity = identity;
   checkpoint.version = HAMFLOW_VERSION;
@@ -125,7 +125,7 @@ Checkpoint beginning_of(const Scenario& scenario, const std::string& identity) {
 }
 
 void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const fs::path& folder) {
-  const bool begun = has_only_begun(checkpoint);
+  const bool begun = has_no_step(checkpoint);
   const auto check = [&](const char* format, const char* name, const auto& wrong_with) {
     const auto& formats = scenario.formats;
     const bool wanted = std::find(formats.begin(), formats.end(), format) != formats.end();
@@ -133,7 +133,7 @@ void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const
     std::error_code none;
     if (!wanted || (begun && !fs::exists(file, none))) return;
     if (const std::string wrong = wrong_with(file); !wrong.empty()) {
-      throw FileError("cannot go on with " + file.string() + ": " + wrong + advice_to_overwrite());
+      throw FileError("cannot resume with " + file.string() + ": " + wrong + advice_to_overwrite());
     }
   };
   check("h5", "run.h5",
@@ -150,7 +150,7 @@ std::optional<KeptSummary> own_summary(const Checkpoint& checkpoint, const fs::p
 }
 
 bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const Summary& own) {
-  if (own.status != "done") return false;  // its certificate may have been stopped
+  if (own.status != "done") return false;  // the certificate may be missing
   if (own.stopped_by) return true;         // an event ended the run: no step follows
   return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps;
 }
@@ -159,16 +159,16 @@ void check_summary(const std::string& own, const fs::path& folder) {
   const auto text = text_of(folder / "summary.json");
   if (!text) return;
   const auto refuse = [&](const std::string& why) {
-    throw FileError("the summary " + (folder / "summary.json").string() + " is not of this run: " + why +
-                    "; move it elsewhere" + advice_to_overwrite());
+    throw FileError("the file " + (folder / "summary.json").string() + " belongs to another run: " + why +
+                    "; move it to another folder" + advice_to_overwrite());
   };
   const auto found = read_json_by_keys(*text);
-  if (!found.is_object()) refuse("it is no JSON object");
+  if (!found.is_object()) refuse("it is not a JSON object");
   const auto expected = read_json_by_keys(own);
   for (const char* key : {"problem", "method", "arithmetic", "parameters", "dt"}) {
     if (found.contains(key) && found[key] != expected[key]) refuse(std::string(key) + " differs");
   }
-  if (!found.contains("problem") && !found.contains("method")) refuse("it names no problem and no method");
+  if (!found.contains("problem") && !found.contains("method")) refuse("it has no keys problem and method");
 }
 
 void restore_observers(const Checkpoint& checkpoint, const std::vector<NamedObserver>& observers) {
@@ -201,9 +201,9 @@ CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& s
       every_(scenario.checkpoint_every),
       checkpoint_(std::move(last)),
       seconds_before_(checkpoint_.wall_seconds) {
-  // What the scenario may change when a run goes on.
-  Checkpoint now = beginning_of(scenario, checkpoint_.identity);
-  if (!scenario.start_contents) {  // what the file held when the run began is still known
+  // Some keys may change when a run is resumed.
+  Checkpoint now = first_checkpoint(scenario, checkpoint_.identity);
+  if (!scenario.start_contents) {  // the file is gone; keep the hash that its contents had when the run began
     for (std::size_t i = 0; i < checkpoint_.keys.size(); ++i) {
       if (checkpoint_.keys[i] != contents_key(scenario)) continue;
       now.keys.push_back(checkpoint_.keys[i]);
@@ -227,7 +227,7 @@ void CheckpointWriter::archive_observers() {
 std::int64_t CheckpointWriter::next_due(std::int64_t step) const {
   if (every_ == 0) return never;
   const std::int64_t next = (step + every_ - 1) / every_ * every_;
-  return std::max(next, every_);  // there is nothing to save at the start
+  return std::max(next, every_);  // no checkpoint at the start
 }
 
 Verdict CheckpointWriter::observe(const Frame&) {

@@ -1,4 +1,4 @@
-// Where a run goes on: what of its folder fits the scenario, and how checkpoints are written on the way.
+// Resuming a run: checks that its folder fits the scenario, and writes checkpoints during the run.
 #pragma once
 
 #include <chrono>
@@ -9,42 +9,42 @@
 
 namespace hamflow {
 
-/// What differs between the scenario and the run that left the checkpoint. More steps may be asked for, fewer not; the
-/// folder, threads, figures and spacing of checkpoints change nothing in the run.
+/// The differences between the scenario and the run of the checkpoint that forbid resuming. More steps are allowed,
+/// fewer are not. Folder, threads, figures and spacing of checkpoints may differ, since they do not change the run.
 std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& checkpoint);
 
-/// Puts what the observers had seen back into them, each by its name. The simulation has to be restored before.
-/// @throws FileError when the checkpoint is of other observers, or damaged
+/// Restores the state of the observers, each by its name. The simulation must be restored first.
+/// @throws FileError if the checkpoint has other observers or is damaged
 void restore_observers(const Checkpoint& checkpoint, const std::vector<NamedObserver>& observers);
 
-/// What a checkpoint says of a run before its first step: whose folder it is. `Checkpoint::simulation` is empty.
-Checkpoint beginning_of(const Scenario& scenario, const std::string& identity);
-/// Whether a run was killed before it saved a step: it begins anew, in its own folder.
-inline bool has_only_begun(const Checkpoint& checkpoint) { return checkpoint.simulation.empty(); }
+/// The checkpoint before the first step, which marks the folder as one of this run. `Checkpoint::simulation` is empty.
+Checkpoint first_checkpoint(const Scenario& scenario, const std::string& identity);
+/// Whether a run was killed before it saved a step. Then it starts from the beginning in its folder.
+inline bool has_no_step(const Checkpoint& checkpoint) { return checkpoint.simulation.empty(); }
 
-/// Compares run.h5 and trajectory.csv with the checkpoint: nothing is mixed with another run's samples, and none are
-/// missing. @throws FileError
+/// Compares run.h5 and trajectory.csv with the checkpoint.
+/// @throws FileError if samples are missing or belong to another run
 void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const std::filesystem::path& folder);
 
-/// summary.json of a folder, and what it says.
+/// The text of summary.json of a folder, and its contents.
 struct KeptSummary {
   std::string json;
   Summary summary;
 };
-/// That of the folder if it is, to the last byte, the one that the run left.
+/// The summary in the folder if it is byte for byte the one that the run wrote; else nullopt.
 std::optional<KeptSummary> own_summary(const Checkpoint& checkpoint, const std::filesystem::path& folder);
 
-/// Whether the run was carried through to the last step of the scenario, by its own summary.
+/// Whether the run reached the last step of the scenario, according to its own summary.
 bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const Summary& own);
 
-/// A summary that is another run's is not replaced. One of the same run that was changed, or is older, may be.
-/// @param own a summary of this run, as JSON   @throws FileError
+/// Checks that summary.json in the folder belongs to this run, so that it may be replaced. It may be older or edited.
+/// @param own a summary of this run, as JSON   @throws FileError if it belongs to another run
 void check_summary(const std::string& own, const std::filesystem::path& folder);
 
-/// Writes checkpoints: every so many steps, or every ten seconds of the clock; and when asked to.
+/// Writes checkpoints every given number of steps, or every ten seconds of wall time, and on request.
 class CheckpointWriter final : public Observer {
  public:
-  /// @param observers whose archives belong to the checkpoint   @param last where the run begins or goes on
+  /// @param observers whose archives are part of the checkpoint   @param last the checkpoint from which the run starts
   CheckpointWriter(const Scenario& scenario, const Simulation& simulation, Recorder& recorder,
                    std::vector<NamedObserver> observers, const std::filesystem::path& folder, Checkpoint last);
   std::int64_t next_due(std::int64_t step) const override;
@@ -52,7 +52,7 @@ class CheckpointWriter final : public Observer {
   void write_if_due();
   /// @throws FileError
   void write();
-  /// Notes in the last checkpoint which summary is written next. @throws FileError
+  /// Stores in the last checkpoint the hash of the summary that is written next. @throws FileError
   void expect_summary(const std::string& text);
 
  private:

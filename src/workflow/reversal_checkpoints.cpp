@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* reversal_file = "reversal.bin";
 constexpr const char* reversal_record = "reversal";
-constexpr const char* there_record = "there";  // what warnings ask of the way there
+constexpr const char* forward_record = "there";  // data of the way forward, for warnings
 constexpr double seconds_between = 10;
 
 std::uint64_t hash_of_text(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
@@ -36,8 +36,8 @@ ReversalProgress progress_in(const Checkpoint& checkpoint) {
 }
 
 template <class Archive>
-void archive_there(Archive& ar, ReversalProgress& progress, TurnWatch& turns) {
-  Excursion& energy = progress.energy_there;
+void archive_forward(Archive& ar, ReversalProgress& progress, TurnWatch& turns) {
+  Excursion& energy = progress.forward_energy;
   ar(energy.initial, energy.final, energy.max_error, energy.scale_at_start, energy.exchanged);
   turns.archive(ar);
 }
@@ -49,7 +49,7 @@ std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path
   Checkpoint checkpoint = read_checkpoint(folder / reversal_file);
   std::vector<Complaint> complaints = differences(scenario, checkpoint);
   try {
-    // A short one leaves no state, but it is complete all the same.
+    // A short reversal saves no state, but may be complete.
     const bool turned = progress_in(checkpoint).turned || checkpoint.summary_hash != 0;
     if (turned && scenario.steps != checkpoint.steps && complaints.empty()) {
       const std::string by_time = run_path(run_keys().t_end);
@@ -58,8 +58,8 @@ std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path
       const Setting where = given == scenario.settings.end() ? Setting{{}, 1, 1} : given->second;
       complaints.push_back({scenario.file, where.line, where.column, steps,
                             "found " + std::to_string(scenario.steps) + " steps; allowed with " +
-                                option_name("resume") + " the " + std::to_string(checkpoint.steps) +
-                                " after which the momenta were negated"});
+                                option_name("resume") + " " + std::to_string(checkpoint.steps) +
+                                ", after which the momenta were negated"});
     }
   } catch (const Error& error) {
     throw FileError("the checkpoint " + (folder / reversal_file).string() + " cannot be used: " + error.what());
@@ -81,16 +81,16 @@ ReversalCheckpoints::ReversalCheckpoints(const Scenario& scenario, Simulation& s
     : simulation_(simulation),
       file_(folder / reversal_file),
       every_(scenario.checkpoint_every),
-      checkpoint_(beginning_of(scenario, from != nullptr ? from->identity : new_identity())),
+      checkpoint_(first_checkpoint(scenario, from != nullptr ? from->identity : new_identity())),
       turns_(scenario.dt, takes_equal_steps(simulation.method())) {
-  if (from != nullptr && !has_only_begun(*from)) {
+  if (from != nullptr && !has_no_step(*from)) {
     try {
       simulation.restore(from->simulation);
       progress_ = progress_in(*from);
       for (const ObserverRecord& record : from->observers) {
-        if (record.name != there_record) continue;
+        if (record.name != forward_record) continue;
         Reader ar(record.bytes);
-        archive_there(ar, progress_, turns_);
+        archive_forward(ar, progress_, turns_);
         ar.finish();
       }
     } catch (const Error& error) {
@@ -100,7 +100,7 @@ ReversalCheckpoints::ReversalCheckpoints(const Scenario& scenario, Simulation& s
     checkpoint_.observers = from->observers;
     checkpoint_.step = from->step;
   }
-  write_checkpoint(file_, checkpoint_);  // whose folder this is, however early it is killed
+  write_checkpoint(file_, checkpoint_);  // marks the folder as one of this reversal, in case it is killed early
 }
 
 std::int64_t ReversalCheckpoints::next_due(std::int64_t step) const {
@@ -122,15 +122,15 @@ void ReversalCheckpoints::write() {
   Writer ar;
   progress_.archive(ar);
   Writer there;
-  archive_there(there, progress_, turns_);
-  checkpoint_.observers = {{reversal_record, ar.take()}, {there_record, there.take()}};
+  archive_forward(there, progress_, turns_);
+  checkpoint_.observers = {{reversal_record, ar.take()}, {forward_record, there.take()}};
   write_checkpoint(file_, checkpoint_);
   last_ = Clock::now();
 }
 
 void ReversalCheckpoints::complete(const std::string& json) {
   checkpoint_.summary_hash = hash_of_text(json);
-  if (checkpoint_.simulation.empty()) {  // a short one: what is compared is the scenario
+  if (checkpoint_.simulation.empty()) {  // a short reversal: --resume compares only the scenario
     checkpoint_.step = checkpoint_.steps;
   }
   write_checkpoint(file_, checkpoint_);

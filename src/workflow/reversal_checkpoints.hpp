@@ -1,4 +1,4 @@
-// A reversal that was stopped goes on from either half: what its folder keeps on the way, reversal.bin.
+// Checkpoints of a reversal, reversal.bin. A stopped reversal can be resumed on the way forward and on the way back.
 #pragma once
 
 #include <chrono>
@@ -11,21 +11,21 @@
 
 namespace hamflow {
 
-/// What the folder keeps of this scenario's reversal; nothing where it keeps none.
-/// @throws Rejection when the scenario is another   @throws FileError
+/// The checkpoint of this scenario's reversal in the folder; nullopt if there is none.
+/// @throws Rejection if the scenario is another   @throws FileError
 std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const std::filesystem::path& folder);
-/// reverse.json of a reversal that came to its end, if it is to the last byte the one that it left.
+/// The text of reverse.json if the reversal is complete and the file is byte for byte the one that it wrote.
 std::optional<std::string> complete_reversal(const Checkpoint& checkpoint, const std::filesystem::path& folder);
 
-/// Writes checkpoints: every so many steps of the scenario, or every ten seconds of the clock.
+/// Writes checkpoints every given number of steps, or every ten seconds of wall time.
 class ReversalCheckpoints final : public Observer {
  public:
-  /// @param from where the reversal goes on, which is put into the simulation; null: at its beginning
+  /// @param from the checkpoint of a resumed reversal, from which the simulation is restored; null: the reversal starts
   /// @throws FileError
   ReversalCheckpoints(const Scenario& scenario, Simulation& simulation, const std::filesystem::path& folder,
                       const Checkpoint* from);
   ReversalProgress& progress() { return progress_; }
-  /// What the coordinates did on the way there.
+  /// The observer of the coordinates on the way forward.
   TurnWatch& turns() { return turns_; }
 
   std::int64_t next_due(std::int64_t step) const override;
@@ -33,7 +33,7 @@ class ReversalCheckpoints final : public Observer {
   void write_if_due();
   /// @throws FileError
   void write();
-  /// The reversal is done: nothing is left to go on with. @throws FileError
+  /// Marks the reversal as complete, so that it is not resumed. @throws FileError
   void complete(const std::string& json);
 
  private:

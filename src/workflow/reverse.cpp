@@ -29,15 +29,16 @@ bool rejects_steps(const Scenario& scenario) {
   return walls && walls->rule == WallRule::reject;
 }
 
-/// What runs on the lattice is made of kicks and drifts, which are one-to-one there; in a palindrome each is undone by
-/// its mirror image.
+/// Whether every bit returns. Methods on the lattice consist of kicks and drifts, which are bijections there; in a
+/// palindromic method each of them is undone by its mirror image.
 bool palindromic_on_lattice(const Scenario& scenario) {
   if (rejects_steps(scenario)) return false;
   return scenario.request.arithmetic == "lattice" && describe(scenario.request.method).symmetric;
 }
 
-/// With what a palindromic splitting returns every bit; empty where none can: on constraints, with an H that no
-/// splitting takes, with steps that are rejected. Bounces that are located are not on the lattice, but mirrors may be.
+/// The settings with which a palindromic splitting would return every bit. Empty if there are none: with constraints,
+/// for an H that no splitting can integrate, and with rejected steps. Located bounces are not possible on the lattice,
+/// but the wall rule "mirror" may be.
 std::string exact_return(const Scenario& scenario) {
   if (rejects_steps(scenario)) return {};
   Request request = scenario.request;
@@ -60,54 +61,53 @@ std::string exact_return(const Scenario& scenario) {
   return {};
 }
 
-/// What the distance says about a method that is not reversible: where rounding explains it, nothing.
+/// The note for a method that is not reversible: whether the distance is larger than rounding explains.
 std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, const std::string& method) {
   const std::string begun = method + " is not reversible";
-  if (r.bit_exact) return begun + ", but every bit came back: its defect is below rounding here";
+  if (r.bit_exact) return begun + ", but every bit returned: its reversibility defect is below rounding here";
   const ReversalEvidence evidence = reversal_evidence(scenario.request, *scenario.problem, r.steps, std::nullopt);
   if (evidence.proves == ReversalProof::not_reversible) {
-    return begun + ": the distance is its own, not that of rounding alone";
+    return begun + ": rounding alone does not explain the distance";
   }
-  return begun + ", but no distance of its own is shown: " + evidence.reason;
+  return begun + ", but this reversal does not show it: " + evidence.reason;
 }
 
-/// @param tolerance as it was given, else empty   @param irreversible what to say of a method that is not reversible
+/// The note that explains the distance.
+/// @param tolerance as it was given, else empty   @param irreversible makes the note for a method that is not
+/// reversible
 /// @param exact_with see exact_return
 std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
                     const std::string& why_not_reversed, bool expected,
                     const std::function<std::string()>& irreversible, const std::string& exact_with) {
   if (timed) {
-    return "H depends on t, which goes on: the motion itself is not reversed by negating the momenta, so that a "
-           "distance "
-           "says nothing about the method";
+    return "H depends on t, and t keeps increasing: negating the momenta does not reverse the motion itself, so the "
+           "distance says nothing about the method";
   }
-  if (!why_not_reversed.empty()) return why_not_reversed + ", so that a distance says nothing about the method";
+  if (!why_not_reversed.empty()) return why_not_reversed + ", so the distance says nothing about the method";
   if (expected) return "a palindromic splitting on the lattice returns every bit";
   if (!method.reversible) return irreversible();
   if (!tolerance.empty()) {
-    return method.name + " is reversible, but steps solved to tolerance = " + tolerance +
-           " are not, and neither is rounding";
+    return method.name + " is reversible, but steps that are solved only to tolerance = " + tolerance +
+           " and rounded are not";
   }
   if (arithmetic == "lattice") return {};
   return method.name + " is reversible, but rounding is not" +
-         (exact_with.empty() ? "" : ": with " + exact_with + " a palindromic splitting returns every bit");
+         (exact_with.empty() ? "" : "; with " + exact_with + " a palindromic splitting returns every bit");
 }
 
 const char* const uncounted_pairs =
-    "with a cut-off only pairs within it are computed: how many they are changes from force to force, and no step "
-    "counts them";
+    "pairs are not counted, because with a cut-off the number of pairs changes from one force evaluation to the next";
 
 constexpr const char* other_than_forces =
-    "{} asks for more of the pairs than forces (second derivatives, series or differences of H): how many pairs that "
-    "takes, no step counts";
+    "pairs are not counted, because {} evaluates more than forces (second derivatives, series or differences of H)";
 
-const char* const nothing_returned = "the reversal has not come to its end: nothing is said of what it returns";
+const char* const nothing_returned = "the reversal did not finish, so there is no result";
 
 const char* const below_the_digits =
-    "every digit of q and p came back; what is carried on below their last digit did not, or a zero has the other sign";
+    "every digit of q and p returned, but digits carried below the last one did not, or a zero has the other sign";
 
-/// Texts that read back exactly have up to 98 digits in double-double, where the two halves of a number lie far apart.
-/// reverse.h5 has them; here stand the 33 that the arithmetic carries.
+/// Shortens double-double texts to the 33 digits that the arithmetic carries. Texts that read back exactly have up to
+/// 98 digits if the two halves of a number are far apart; reverse.h5 has these.
 std::vector<std::string> shown(std::vector<std::string> texts, const std::string& arithmetic) {
   if (arithmetic != "double-double") return texts;
   mpfr_t x;
@@ -122,7 +122,7 @@ std::vector<std::string> shown(std::vector<std::string> texts, const std::string
   return texts;
 }
 
-/// @param dataset of reverse.h5 with it, where one is kept; else empty
+/// @param dataset of reverse.h5 that holds the state; empty: no file holds it
 StateSummary state(const Frame& frame, const std::string& arithmetic, const char* dataset) {
   StateSummary all;
   all.is_large = frame.q.size() > most_named_coordinates;
@@ -137,10 +137,10 @@ StateSummary state(const Frame& frame, const std::string& arithmetic, const char
   return all;
 }
 
-/// Watches the way there alone: on the way back every coordinate turns with the momenta.
-class WayThere final : public Observer {
+/// Observes only the way forward: on the way back every coordinate turns, because the momenta were negated.
+class ForwardObserver final : public Observer {
  public:
-  WayThere(TurnWatch& turns, std::int64_t steps) : turns_(turns), steps_(steps) {}
+  ForwardObserver(TurnWatch& turns, std::int64_t steps) : turns_(turns), steps_(steps) {}
   std::int64_t next_due(std::int64_t step) const override {
     const std::int64_t due = turns_.next_due(step);
     return due > steps_ ? never : due;
@@ -152,7 +152,7 @@ class WayThere final : public Observer {
   std::int64_t steps_;
 };
 
-/// What is nonsense about the motion that was reversed. Both ways count where the way back is the same motion.
+/// Warnings about the motion that was reversed. Both ways are judged if the way back is the same motion.
 std::vector<Warning> warnings_about(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
                                     bool same_motion, const Excursion& there, const TurnWatch& turns) {
   std::optional<OrbitSummary> orbit;
@@ -173,7 +173,7 @@ BodiesReturned bodies_returned(const Scenario& scenario, const Simulation& simul
   BodiesReturned all;
   if (done) all.error = return_error(r, bodies);
   const Effort effort = simulation.effort();
-  // A way that failed at once has taken none.
+  // A reversal that failed at once has no evaluations.
   const bool by_forces_alone = (effort.force > 0 || !done) && effort.gradient == 0 && effort.hessian == 0;
   if (r.steps > 0 && !by_forces_alone) {
     if (effort.force > 0) all.force_evaluations = effort.force;
@@ -275,7 +275,7 @@ std::string reversal_text(const ReversalSummary& s) {
   const auto state_rows = [&](const std::string& label, const StateSummary& at) {
     if (at.is_large) {
       return row(label,
-                 at.dataset.empty() ? "kept nowhere: --out DIR keeps it in reverse.h5" : at.dataset + " of reverse.h5");
+                 at.dataset.empty() ? "not saved; --out DIR saves it in reverse.h5" : at.dataset + " in reverse.h5");
     }
     row(label + " q", list(at.q, at.digits.q));
     row(label + " p", list(at.p, at.digits.p));
@@ -283,13 +283,13 @@ std::string reversal_text(const ReversalSummary& s) {
   row("status", s.status);
   row("problem", s.problem);
   row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s.method, s.dt, s.arithmetic));
-  row("steps", fmt::format("{} there, {} back", s.steps, s.steps));
+  row("steps", fmt::format("{} forward, {} back", s.steps, s.steps));
   state_rows("start", s.start);
   if (s.returned) {
     state_rows("returned", *s.returned);
     constexpr std::size_t most_groups = 4;
     std::vector<GroupDistance> groups = *s.distances;
-    if (groups.size() > most_groups) {  // the one that is furthest off
+    if (groups.size() > most_groups) {  // only the group with the largest relative distance
       const auto furthest = std::ranges::find_if(groups, [&](const GroupDistance& each) {
         return each.relative.value == s.relative_distance->value && each.relative.text == s.relative_distance->text;
       });
@@ -339,7 +339,7 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   const auto tolerance = method.options.find(tolerance_option);
   const MethodInfo info = describe(method);
   if (r.outcome != Outcome::done) {
-    report.note = nothing_returned;  // what a method is said to return was not seen here
+    report.note = nothing_returned;
     if (!parity.is_defined) report.note += "; " + why_not_reversed(parity);
   } else {
     report.note = note_of(
@@ -350,7 +350,7 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   if (r.outcome == Outcome::done && rejects_steps(scenario)) {
     report.note +=
         (report.note.empty() ? "" : "; ") +
-        std::string("steps that leave the walls are rejected, which is not one-to-one: no return is promised");
+        std::string("steps that leave the walls are rejected, which cannot be undone, so no exact return is expected");
   }
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
@@ -366,7 +366,7 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
     report.hint = report.summary.error->hint;
     if (!parity.is_defined) {
       report.message = why_not_reversed(parity);
-      report.hint = "to go back along this motion, begin at its end with the other sign of dt";
+      report.hint = "to integrate back along this motion, start at its end with the other sign of dt";
     }
   }
   return report;
@@ -377,14 +377,14 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t)>& pulse) {
   const auto simulation = make_simulation(scenario.request);
   TurnWatch turns(scenario.dt, takes_equal_steps(simulation->method()));
-  WayThere way_there(turns, scenario.steps);
-  Observer* const observers[] = {&way_there};
+  ForwardObserver forward_observer(turns, scenario.steps);
+  Observer* const observers[] = {&forward_observer};
   ReversalProgress progress;
   const std::function<bool()> goes_on = [&] { return !pulse || pulse(simulation->step() - progress.first); };
   const StopQuestion question(goes_on);
   Reversal reversal = reverse(*simulation, scenario.steps, pulse, observers, progress,
                               unit_groups(*scenario.problem, scenario.start_q.size()));
-  return report_of(scenario, *simulation, std::move(reversal), progress.energy_there, turns, false);
+  return report_of(scenario, *simulation, std::move(reversal), progress.forward_energy, turns, false);
 }
 
 ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings) {
@@ -395,11 +395,11 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
   std::optional<Checkpoint> from;
   WorkFolder folder(settings.folder, reversal_folder(), settings.existing);
   if (!folder.note().empty()) note(folder.note());
-  if (folder.goes_on()) from = kept_reversal(scenario, settings.folder);
+  if (folder.resumes()) from = kept_reversal(scenario, settings.folder);
   folder.prepare(scenario);
   if (from) {
     if (const auto kept = complete_reversal(*from, settings.folder)) {
-      note("the reversal is complete: there is nothing to do");
+      note("the reversal is complete already; there is nothing to do");
       ReversalReport report;
       report.json = *kept;
       JsonReader::read(read_json(*kept), report.summary);
@@ -411,8 +411,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
   }
   const auto simulation = make_simulation(scenario.request);
   ReversalCheckpoints checkpoints(scenario, *simulation, settings.folder, from ? &*from : nullptr);
-  WayThere way_there(checkpoints.turns(), scenario.steps);
-  Observer* const observers[] = {&way_there, &checkpoints};
+  ForwardObserver forward_observer(checkpoints.turns(), scenario.steps);
+  Observer* const observers[] = {&forward_observer, &checkpoints};
   const auto asked_at = [&](std::int64_t step) { return !settings.pulse || settings.pulse(step); };
   const std::function<bool()> goes_on = [&] { return asked_at(simulation->step() - checkpoints.progress().first); };
   const StopQuestion question(goes_on);
@@ -424,7 +424,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
       },
       observers, checkpoints.progress(), unit_groups(*scenario.problem, scenario.start_q.size()));
   if (reversal.outcome == Outcome::stopped) checkpoints.write();
-  ReversalReport report = report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().energy_there,
+  ReversalReport report = report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().forward_energy,
                                     checkpoints.turns(), true);
   const Reversal& r = report.reversal;
   write_reverse_file(settings.folder / "reverse.h5", scenario.text, r.start, r.turn,

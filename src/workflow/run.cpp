@@ -25,13 +25,13 @@ void note(const RunSettings& settings, const std::string& text) {
   if (settings.note) settings.note(text);
 }
 
-/// The scenario with the samples as they were spaced when the run began.
+/// The scenario with the spacing of samples that the run had when it began.
 Scenario with_spacing_of(const Checkpoint& checkpoint, Scenario scenario, const RunSettings& settings) {
   if (scenario.record_every != checkpoint.record_every && scenario.record.empty()) {
     scenario.record_every = checkpoint.record_every;
     scenario.text =
         edited_scenario(scenario.text, {{run_path(run_keys().record_every), std::to_string(checkpoint.record_every)}});
-    note(settings, fmt::format("samples stay {} {} apart, as when the run began", checkpoint.record_every,
+    note(settings, fmt::format("samples are still recorded every {} {}, as when the run began", checkpoint.record_every,
                                checkpoint.record_every == 1 ? "step" : "steps"));
   }
   return scenario;
@@ -45,17 +45,16 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
   }
 }
 
-constexpr double patience = 0.4;  // seconds that the certificate, and then the figures, may take after Ctrl-C
+constexpr double grace = 0.4;  // seconds that the certificate, and then the figures, may take after Ctrl-C
 
-/// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
-/// stop.
-/// @param asked_before whether somebody did   @param tables of the run; null: they are read from its folder
+/// Draws the figures. After an interrupt they are drawn, too, if that takes no longer than the grace period.
+/// @param asked_before whether a stop was requested   @param tables of the run; null: they are read from its folder
 void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, bool asked_before,
           const RunTables* tables, RunReport& report) {
   const auto begin = std::chrono::steady_clock::now();
   const figures::WhileDrawing watch([&] {
     if (!asked_before) return !settings.pulse || settings.pulse(step);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < grace;
   });
   try {
     for (const std::string& missing : draw_figures(scenario, settings.folder, tables)) note(settings, missing);
@@ -72,29 +71,29 @@ bool has_its_figures(const Scenario& scenario, const fs::path& folder) {
   });
 }
 
-/// One run, from where it begins or goes on to where it ends.
+/// One run, from its start or a checkpoint to its end.
 class ScenarioRun {
  public:
-  /// @param folder null: nothing is written   @param last what its checkpoint says; null: the folder is to be made
+  /// @param folder null: nothing is written   @param last the checkpoint in the folder; null: the folder is made
   ScenarioRun(const Scenario& scenario, const RunSettings& settings, WorkFolder* folder, const Checkpoint* last)
       : scenario_(scenario),
         settings_(settings),
         folder_(folder),
         simulation_(timed_simulation()),
         turns_(scenario.dt, takes_equal_steps(simulation_->method())) {
-    const Checkpoint* const from = last != nullptr && !has_only_begun(*last) ? last : nullptr;
+    const Checkpoint* const from = last != nullptr && !has_no_step(*last) ? last : nullptr;
     if (from != nullptr) {
       restore(*simulation_, *from);
       seconds_before_ = from->wall_seconds;
     }
     if (writes()) {
-      for (Observer* observer : settings.observers) {  // refused now, not when the first checkpoint is due
+      for (Observer* observer : settings.observers) {  // throws now, not at the first checkpoint
         Writer probe;
         observer->archive(probe);
       }
       folder_->prepare(scenario);
-      if (last == nullptr) {  // from here on the folder is known as this run's, however early it is killed
-        begin_.emplace(beginning_of(scenario_, new_identity()));
+      if (last == nullptr) {  // marks the folder as one of this run, in case it is killed early
+        begin_.emplace(first_checkpoint(scenario_, new_identity()));
         write_checkpoint(settings.folder / "checkpoint.bin", *begin_);
         last = &*begin_;
       } else {
@@ -120,14 +119,14 @@ class ScenarioRun {
       if (recorder_) observers_.push_back(recorder_.get());
       return;
     }
-    folder_->remove("summary.json");  // of the part before
+    folder_->remove("summary.json");  // belongs to the part before
     checkpoints_ = std::make_unique<CheckpointWriter>(scenario_, *simulation_, *recorder_, std::move(archived),
                                                       settings.folder, *last);
     observers_.push_back(recorder_.get());
-    observers_.push_back(checkpoints_.get());  // the last: what was seen at a step belongs to its checkpoint
+    observers_.push_back(checkpoints_.get());  // the last one: a checkpoint includes all observations of its step
   }
 
-  /// Samples by steps end with the last; those at times may.
+  /// Whether a file holds the final state. Samples by steps include it; samples at given times may.
   bool keeps_final_state() const {
     const auto& formats = scenario_.formats;
     if (!writes() || std::find(formats.begin(), formats.end(), "h5") == formats.end()) return false;
@@ -146,21 +145,21 @@ class ScenarioRun {
     result.steps_taken = simulation_->step();
     step_seconds_ = (result.wall_seconds - seconds_before_) /
                     static_cast<double>(std::max<std::int64_t>(1, result.steps_taken - first));
-    // Behind the last checkpoint: a run that goes on does not stop here.
+    // This happens after the last checkpoint was written, because a resumed run does not end here.
     Frame end;
     simulation_->look(end);
     measures_->reach_the_end(end);
     RunReport report;
     std::optional<RunCertificate> certificate;
     if (!scenario_.map) {
-      // Without a certificate the sizes of energies are still needed, but no step beside those of the run.
+      // Without a certificate only the sizes of energies are needed, and no further steps are taken.
       const GoOn no_steps = [] { return false; };
       certificate =
           certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
                   scenario_.certificate ? going_on(result.outcome == Outcome::stopped, result.steps_taken) : no_steps);
       const auto& reversal = certificate->reversal;
       certificate_stopped_ = scenario_.certificate && reversal && reversal->was_stopped;
-      if (certificate_stopped_) result.outcome = Outcome::stopped;  // what is left of the run is its certificate
+      if (certificate_stopped_) result.outcome = Outcome::stopped;  // the certificate is not complete
     }
     report.summary =
         summary_of(scenario_, *simulation_, result, certificate ? &*certificate : nullptr, &*measures_, &turns_);
@@ -169,8 +168,8 @@ class ScenarioRun {
       if (writes()) {
         report.summary.warnings.push_back(
             {"final_state",
-             "the last state has too many numbers for a summary, and no file holds it: samples are not kept as "
-             "HDF5, or at times of run.record that end before the run"});
+             "no file holds the final state, which has too many numbers for a summary: run.h5 is not written, or the "
+             "times of run.record end before the run"});
       }
     }
     report.file_trouble = result.file_trouble;
@@ -185,7 +184,7 @@ class ScenarioRun {
     return report;
   }
 
-  /// Of a run that had come to its end: what the checkpoint holds, and the summary that it left.
+  /// The report of a run that was complete already, from its checkpoint and its stored summary.
   RunReport complete(KeptSummary kept) {
     RunReport report;
     report.was_complete = true;
@@ -202,13 +201,13 @@ class ScenarioRun {
     setup_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return made;
   }
-  /// What comes after the steps. Who has asked to stop before waits for it no longer than `patience`: no step begins
-  /// that would take longer, and no simulation is set up again.
+  /// Tells whether the work after the steps may continue. If a stop was requested, it may take `grace` seconds: no step
+  /// and no set-up of a simulation begins that would take longer.
   GoOn going_on(bool asked_before, std::int64_t step) const {
     if (!asked_before) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
     return [this, begin = std::chrono::steady_clock::now()] {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      return seconds + std::max(step_seconds_, setup_seconds_) < patience;
+      return seconds + std::max(step_seconds_, setup_seconds_) < grace;
     };
   }
   bool writes() const { return folder_ != nullptr; }
@@ -222,7 +221,7 @@ class ScenarioRun {
         if (recorder_) {
           recorder_->flush_if_due();
           if (checkpoints_) checkpoints_->write_if_due();
-          if (!recorder_->wants_bounces()) simulation_->tell_bounces({});  // its steps then bounce by themselves
+          if (!recorder_->wants_bounces()) simulation_->tell_bounces({});  // unreported bounces cost less
         }
         return !settings_.pulse || settings_.pulse(step);
       });
@@ -235,7 +234,7 @@ class ScenarioRun {
         recorder_->finish(*simulation_);
         if (checkpoints_ && status_of(result.outcome) != "failed") checkpoints_->write();
       }
-    } catch (const FileError& error) {  // a full disk, say: what was computed is still reported
+    } catch (const FileError& error) {  // e.g. a full disk; the results are reported anyway
       result.file_trouble = error.what();
     }
     if (is_failure(result.outcome) && result.failure.empty()) result.failure = simulation_->failure();
@@ -270,7 +269,7 @@ class ScenarioRun {
         const bool asked_before = report.status == "interrupted" || certificate_stopped_;
         draw(scenario_, settings_, simulation_->step(), asked_before, recorder_->tables(), report);
       }
-    } catch (const std::exception& error) {  // the run itself is done
+    } catch (const std::exception& error) {  // the run itself is complete
       report.file_trouble = error.what();
     }
   }
@@ -278,10 +277,10 @@ class ScenarioRun {
   const Scenario& scenario_;
   const RunSettings& settings_;
   WorkFolder* folder_;
-  double setup_seconds_ = 0;  // of the simulation
+  double setup_seconds_ = 0;  // time to set up the simulation
   std::unique_ptr<Simulation> simulation_;
   double seconds_before_ = 0;
-  double step_seconds_ = 0;  // on average, with what observes a step
+  double step_seconds_ = 0;  // mean time of a step, observers included
   std::optional<Checkpoint> begin_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;
@@ -299,21 +298,21 @@ RunReport run(const Scenario& requested, const RunSettings& settings) {
   if (!settings.folder.empty()) place.emplace(settings.folder, run_folder(), settings.existing);
   WorkFolder* const folder = place ? &*place : nullptr;
   if (folder != nullptr && !folder->note().empty()) note(settings, folder->note());
-  if (folder == nullptr || !folder->goes_on()) return ScenarioRun(requested, settings, folder, nullptr).carry_out();
+  if (folder == nullptr || !folder->resumes()) return ScenarioRun(requested, settings, folder, nullptr).carry_out();
   const std::optional<Checkpoint> from = read_checkpoint(*folder / "checkpoint.bin");
   if (auto complaints = differences(requested, *from); !complaints.empty()) throw Rejection(std::move(complaints));
   check_samples(requested, *from, settings.folder);
-  if (has_only_begun(*from)) {
-    note(settings, "the run was stopped before its first checkpoint: it starts from the beginning");
+  if (has_no_step(*from)) {
+    note(settings, "the run was stopped before its first checkpoint, so it starts from the beginning");
     return ScenarioRun(requested, settings, folder, &*from).carry_out();
   }
   std::optional<KeptSummary> kept = own_summary(*from, settings.folder);
   if (kept && is_complete(requested, *from, kept->summary)) {
     RunReport report = ScenarioRun(requested, settings, nullptr, &*from).complete(std::move(*kept));
     if (has_its_figures(requested, settings.folder)) {
-      note(settings, "the run is complete: there is nothing to do");
+      note(settings, "the run is complete already; there is nothing to do");
     } else {
-      note(settings, "the run is complete: its figures are drawn");
+      note(settings, "the run is complete already; only its figures are drawn");
       draw(requested, settings, from->step, false, nullptr, report);
     }
     return report;

@@ -17,7 +17,7 @@ namespace {
 
 bool is_solar_system(const Scenario& scenario) { return scenario.request.problem == SolarSystem<double>::name; }
 
-/// Of the bodies, one after the other; a problem that has one mass has one.
+/// The masses of the bodies in order; one entry if the problem has one mass.
 std::vector<double> masses_of(const Scenario& scenario) {
   const Parameters<double> parameters(scenario.request.parameters);
   for (const char* name : {"masses", "mass"}) {
@@ -26,7 +26,7 @@ std::vector<double> masses_of(const Scenario& scenario) {
   return is_solar_system(scenario) ? SolarSystem<double>::masses() : std::vector<double>();
 }
 
-/// Of the one problem that brings numbers along. All others have the units of the input.
+/// The units of columns. Only the solar system has built-in numbers; all other problems have the units of the input.
 struct Units {
   std::string length, momentum, angular_momentum;
   ColumnUnits columns{};
@@ -54,7 +54,7 @@ std::string unit_of(const InvariantInfo& invariant, const Units& units) {
   return "";
 }
 
-/// What the particles of a gas say of themselves in H5MD; of other problems nothing.
+/// The data of a gas for the H5MD groups; empty for other problems.
 H5mdParticles particles_of(const Scenario& scenario) {
   H5mdParticles all;
   const ProblemEntry& problem = *scenario.problem;
@@ -100,7 +100,7 @@ std::vector<InvariantColumn> observable_columns(const Scenario& scenario) {
   std::vector<InvariantColumn> all;
   for (const NamedExpression& each : scenario.observables) all.push_back({each.name, 1, each.expression.text(), {}});
   if (scenario.hamiltonian) {
-    all.push_back({scenario.hamiltonian->name, 1, "H(q, p, t) itself, with the work of the drive", {}});
+    all.push_back({scenario.hamiltonian->name, 1, "H(q, p, t), including the work of the drive", {}});
   }
   return all;
 }
@@ -120,10 +120,10 @@ std::vector<InvariantColumn> csv_columns(const Scenario& scenario) {
 
 ColumnUnits column_units(const Scenario& scenario) { return units_of(scenario).columns; }
 
-std::vector<std::string> changes_on_the_way(std::string_view scenario) {
+std::vector<std::string> changes_during_run(std::string_view scenario) {
   std::vector<std::string> changes;
-  if (!scenario.starts_with(steered_heading)) return changes;
-  for (scenario.remove_prefix(steered_heading.size()); scenario.starts_with(change_heading);) {
+  if (!scenario.starts_with(session_heading)) return changes;
+  for (scenario.remove_prefix(session_heading.size()); scenario.starts_with(change_heading);) {
     const std::string_view line = scenario.substr(0, scenario.find('\n'));
     changes.emplace_back(line.substr(line.find(": ") + 2));
     scenario.remove_prefix(std::min(line.size() + 1, scenario.size()));
@@ -135,7 +135,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
   const Request& request = scenario.request;
   const MethodInfo method = describe(request.method);
   H5mdParticles particles = particles_of(scenario);
-  // Of more particles than anybody reads by name they would take as much room as a sample.
+  // For very many particles the list of names would need as much space as a sample.
   const bool named = particles.space == 0 || scenario.start_q.size() <= most_named_coordinates;
   const StateNames names =
       named ? state_names(*scenario.problem, request.parameters, scenario.start_q.size()) : StateNames{};
@@ -167,7 +167,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
 void check_states(const Scenario& scenario, const RunDescription& found, const std::filesystem::path& file) {
   if (found.dimension == scenario.start_q.size()) return;
   throw FileError(file.string() + " is damaged: its states have " + std::to_string(found.dimension) +
-                  " coordinates, those of its scenario " + std::to_string(scenario.start_q.size()));
+                  " coordinates, but its scenario has " + std::to_string(scenario.start_q.size()));
 }
 
 std::string host_name() {

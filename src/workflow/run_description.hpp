@@ -1,4 +1,4 @@
-// What run.h5 holds beside its samples, from the scenario.
+// The contents of run.h5 other than its samples, from the scenario.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// Above it a gas has no list of names, and its last state is said by its place in run.h5.
+/// With more coordinates a gas has no list of names, and the summary refers to run.h5 for the final state.
 constexpr std::size_t most_named_coordinates = 10000;
 
 /// The invariants in the order of the problem, with the number of components that each has here.
@@ -16,26 +16,26 @@ std::vector<InvariantColumn> invariant_columns(const Scenario& scenario);
 
 /// The observables of [output], with their expressions.
 std::vector<InvariantColumn> observable_columns(const Scenario& scenario);
-/// Their values in a state.
+/// The values of the observables in a state.
 std::vector<double> observable_values(const Scenario& scenario, const Frame& frame);
-/// What trajectory.csv has beside the state: invariants, then observables.
+/// The columns of trajectory.csv after the state: invariants, then observables.
 std::vector<InvariantColumn> csv_columns(const Scenario& scenario);
 
-/// Of the problem that brings numbers along; empty where units are those of the input.
+/// The units of a problem with built-in numbers; empty if the units are those of the input.
 ColumnUnits column_units(const Scenario& scenario);
 
-/// Above the scenario that a session leaves, whose course was changed on the way; the changes follow, a line each.
-inline constexpr std::string_view steered_heading =
+/// The first line of the scenario that a session with changed settings writes; a line for each change follows.
+inline constexpr std::string_view session_heading =
     "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
 inline constexpr std::string_view change_heading = "# after step ";
 inline constexpr std::string_view momenta_negated = "momenta negated";
-/// What was changed on the way, such as "dt = 0.05", from the text of that scenario.
-std::vector<std::string> changes_on_the_way(std::string_view scenario);
+/// The changes of settings during a session, such as "dt = 0.05", from the text of its scenario.
+std::vector<std::string> changes_during_run(std::string_view scenario);
 
-/// @param samples expected
+/// @param samples expected number of samples
 RunDescription description_of(const Scenario& scenario, std::size_t samples);
 
-/// @throws FileError where states of a file have another length than those of the scenario in it
+/// @throws FileError if the states of a file have another length than its scenario says
 void check_states(const Scenario& scenario, const RunDescription& found, const std::filesystem::path& file);
 
 /// The name of this machine.

@@ -1,4 +1,4 @@
-// What figures and summaries say of a Poincare section.
+// Texts about a Poincare section for figures and summaries.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,8 +12,8 @@
 
 namespace hamflow {
 
-/// The coordinate in whose plane, with its momentum, the points are drawn: the one after that of the section, the first
-/// where the section is one of time.
+/// The coordinate that is drawn, with its momentum: the one after the coordinate of the section; the first one if the
+/// section is one in time.
 inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
   return section.by_time_alone ? 0 : (section.coordinate + 1) % size;
 }

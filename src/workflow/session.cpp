@@ -40,7 +40,7 @@ Effort sum(const Effort& a, const Effort& b) {
   return all;
 }
 
-/// The method as a table for [method].
+/// The method as a TOML table for [method].
 std::string method_table(const MethodSpec& method) {
   std::string text = "{ " + method_name_key().name + " = \"" + method.name + "\"";
   for (const OptionInfo& option : find_method(method.name).family->options) {
@@ -50,7 +50,7 @@ std::string method_table(const MethodSpec& method) {
   return text + " }";
 }
 
-/// The methods that have an option, one of each family.
+/// Methods that have the option, one of each family.
 std::string methods_with(const std::string& option) {
   std::vector<std::string> names;
   for (const MethodFamily& family : method_families()) {
@@ -120,7 +120,7 @@ void Session::set_method(const MethodSpec& method) {
   if (!refused) refused = refused_option(next.method, scenario_.start_q.size());
   if (refused) throw Error(method.name + ": " + refused->name + ": " + refused->message);
   if (const std::string why_not = refused_by_walls(next, *scenario_.problem, scenario_.start_q); !why_not.empty()) {
-    throw Error("method: found " + describe(next.method).name + " beside problem.wall_rule = \"" + rule_of_walls(next) +
+    throw Error("method: found " + describe(next.method).name + " with problem.wall_rule = \"" + rule_of_walls(next) +
                 "\" " + why_not);
   }
   if (const std::string why_not = refused_by_size(next, scenario_.start_q.size()); !why_not.empty()) {
@@ -130,7 +130,7 @@ void Session::set_method(const MethodSpec& method) {
   remember(next.method);
 }
 
-/// The options of a method, for methods to come that mean the same by them.
+/// Remembers the options of a method for later methods that have the same option.
 void Session::remember(const MethodSpec& method) {
   for (const OptionInfo& option : find_method(method.name).family->options) {
     const auto text = method.options.find(option.name);
@@ -144,8 +144,7 @@ void Session::set_tolerance(const std::string& text) {
   const std::string& method = request_.method.name;
   const OptionInfo* const option = find_option(find_method(method).family->options, tolerance_option);
   if (option == nullptr) {
-    throw Error("tol: found method " + method + ", which has no tolerance; allowed with " +
-                methods_with(tolerance_option));
+    throw Error("tol: the method " + method + " has no tolerance; allowed with " + methods_with(tolerance_option));
   }
   Request next = request_;
   if (text == "off") {
@@ -161,15 +160,16 @@ void Session::set_tolerance(const std::string& text) {
   remember(request_.method);
 }
 
-/// A simulation that begins anew begins at t = 0, and the way back of an H(q, p, t) is no way with negated momenta.
+/// Refuses a change if H depends on t: a new simulation would start at t = 0, and negated momenta do not reverse
+/// H(q, p, t).
 void Session::refuse_time(const std::string& what) const {
   if (!scenario_.problem->structure || !scenario_.problem->structure->time) return;
   throw Error("found " + what + " after step " + std::to_string(step()) +
-              " of an H that depends on t; allowed before the first step, or a run of its own");
+              ", but H depends on t; allowed before the first step, or as a separate run");
 }
 
 void Session::change(const Request& next, const std::string& what) {
-  if (one_part_ && simulation_->step() == 0) {  // from the given start, in the given digits
+  if (one_part_ && simulation_->step() == 0) {  // restart from the given start, with all its digits
     const Request before = std::exchange(request_, next);
     try {
       restart();
@@ -214,7 +214,7 @@ Scenario Session::present() const {
   const bool same_method = first.method == request_.method;
   const bool steered = !same_method || first.dt != request_.dt || !changes_.empty();
   if (!steered && now.steps == scenario_.steps && scenario_.record.empty()) return now;
-  now.text = !steered ? "" : steered_heading;
+  now.text = !steered ? "" : session_heading;
   for (const SessionChange& c : changes_) {
     now.text +=
         std::string(change_heading) + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
@@ -234,7 +234,7 @@ Scenario Session::present() const {
 
 bool Session::wants_bounces() const { return std::ssize(bounces_) < scenario_.record_events; }
 
-/// To the bounces of the present part, whose steps and times count from where it began.
+/// Collects the bounces of the present part. Its steps and times count from the start of the part.
 void Session::listen() {
   listens_ = wants_bounces();
   if (!listens_) return;
@@ -250,7 +250,7 @@ void Session::listen() {
 }
 
 Outcome Session::advance(std::int64_t steps) {
-  if (listens_ && !wants_bounces()) {  // its steps then bounce by themselves
+  if (listens_ && !wants_bounces()) {  // unreported bounces cost less
     simulation_->tell_bounces({});
     listens_ = false;
   }
@@ -271,7 +271,7 @@ void Session::look(Frame& frame) const {
   in_session(frame);
 }
 
-/// From the numbers of the present part to those of the session.
+/// Changes steps, times and evaluations of the present part to those of the session.
 void Session::in_session(Frame& frame) const {
   frame.step += step_before_;
   frame.time += time_before_;
@@ -282,9 +282,9 @@ void Session::in_session(Frame& frame) const {
   frame.digits.initial_energy = exact_initial_energy_;
 }
 
-std::vector<std::byte> Session::save() const { throw Error("a steered session has no checkpoint"); }
-void Session::restore(std::span<const std::byte>) { throw Error("a steered session has no checkpoint"); }
-std::unique_ptr<Simulation> Session::clone() const { throw Error("a steered session has no copy"); }
+std::vector<std::byte> Session::save() const { throw Error("a session cannot be saved as a checkpoint"); }
+void Session::restore(std::span<const std::byte>) { throw Error("a session cannot be restored from a checkpoint"); }
+std::unique_ptr<Simulation> Session::clone() const { throw Error("a session cannot be copied"); }
 
 Outcome Session::look_ahead(const std::string& time, Frame& frame) const {
   if (one_part_) return simulation_->look_ahead(time, frame);
@@ -312,7 +312,7 @@ void Session::negate_momenta() {
   look(scratch_);
   reference_ = scratch_.invariants;
   reversed_ = true;
-  turns_.restart(scratch_.step, turns_.step_length(), turns_.is_active());  // q goes back along its way
+  turns_.restart(scratch_.step, turns_.step_length(), turns_.is_active());  // every coordinate turns here
   changes_.push_back({scratch_.step, scratch_.time, std::string(momenta_negated)});
 }
 
@@ -377,7 +377,7 @@ void Session::watch(const Frame& frame) {
   }
 }
 
-/// The length of the k-th invariant's deviation from its reference.
+/// The norm of the deviation of the k-th invariant from its reference.
 double Session::deviation(const std::vector<double>& values, std::size_t k) const {
   std::size_t at = 0;
   for (std::size_t i = 0; i < k; ++i) at += sizes_[i];
@@ -408,7 +408,7 @@ Verdict SampleKeeper::observe(const Frame& frame) {
 std::vector<Frame> SampleKeeper::with_present(const Simulation& simulation) const {
   std::vector<Frame> all = samples_;
   if (all.empty() || all.back().step != simulation.step()) all.emplace_back();
-  simulation.look(all.back());  // also where momenta were negated since
+  simulation.look(all.back());  // the momenta may have been negated since the sample
   return all;
 }
 

@@ -1,4 +1,4 @@
-// The summary and the folder that a session leaves.
+// Writes the summary and the folder of a session.
 #include <algorithm>
 
 #include "csv_file.hpp"
@@ -20,9 +20,9 @@ Summary session_summary(const Session& session, const SessionOutcome& last) {
   Summary all = summary_of(session.present(), session, result, nullptr, nullptr, &session.turns());
   all.changes = session.changes();
   if (all.changes.empty()) return all;
-  all.diagnostics.reset();  // they count steps of the last part
+  all.diagnostics.reset();  // they only cover the last part
   if (session.reversed()) {
-    all.exact.reset();  // both are of the start
+    all.exact.reset();  // these two follow from the start, which is on another orbit now
     all.bodies.clear();
   }
   return all;
@@ -36,8 +36,8 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
   description.events.clear();
-  description.section = false;       // a session looks for none
-  description.energy_range = false;  // its parts have energies of their own
+  description.section = false;       // a session does not search for section points
+  description.energy_range = false;  // every part of the session has a range of its own
   const auto falls = [](const Frame& a, const Frame& b) { return !(a.time < b.time); };
   description.particles.time_grows = std::adjacent_find(kept.begin(), kept.end(), falls) == kept.end();
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));

@@ -31,7 +31,7 @@ namespace hamflow {
 
 namespace {
 
-/// Sets a value under its name, as the last one where there is none of that name.
+/// Sets the value with this name, or appends it if there is none.
 void set(Value::Table& table, const std::string& name, Value value) {
   const auto found = std::find_if(table.begin(), table.end(), [&](const auto& each) { return each.first == name; });
   if (found == table.end()) {
@@ -41,7 +41,7 @@ void set(Value::Table& table, const std::string& name, Value value) {
   }
 }
 
-/// @param exponent what that of the walls is called
+/// @param exponent the key of the exponent of the walls
 void add_walls(const Walls& walls, const std::string& exponent, Value::Table& parameters) {
   const WallKeys& keys = wall_keys();
   Value::List all;
@@ -67,17 +67,17 @@ Value::Table parameters_of(const Scenario& scenario) {
   Value::Table parameters;
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
   for (const auto& [key, value] : scenario.problem->info.variant) {
-    // Those of the problem `formula` are its texts, which the scenario has; the values of parameters stand below.
+    // The choices of the problem `formula` are formulas, which the scenario has. The parameters follow below.
     if (has_typed_hamiltonian(*scenario.problem) || key == FormulaKeys::parameters) continue;
     const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
     set(parameters, key, is_number ? Value(std::stoi(value)) : Value(value));
   }
   if (const auto& walls = scenario.request.walls) {
     if (scenario.problem->container == ContainerNames::box) {
-      // The box says the rest.
+      // The parameters of the box define the walls.
       set(parameters, wall_keys().wall_rule.name, wall_rules()[static_cast<std::size_t>(walls->rule)]);
     } else {
-      // A gas in a soft circle has an exponent of its own, that of its container.
+      // A gas in a soft circle has an exponent already, the one of its container.
       const std::string& exponent = wall_keys().exponent.name;
       add_walls(*walls, has_parameter(*scenario.problem, exponent) ? "wall_" + exponent : exponent, parameters);
     }
@@ -106,7 +106,7 @@ Value::Table parameters_of(const Scenario& scenario) {
   return parameters;
 }
 
-/// The least and largest of each over every step, with the time at the end of that step.
+/// The smallest and the largest value of each over every step, with the time at the end of that step.
 DiagnosticsSummary diagnostics_of(const StepDiagnostics& d, double dt) {
   const auto range = [&](const StepDiagnostics::Extremes& e) -> std::optional<DiagnosticRange> {
     if (!(e.least <= e.most)) return std::nullopt;  // no step yet
@@ -116,7 +116,7 @@ DiagnosticsSummary diagnostics_of(const StepDiagnostics& d, double dt) {
   return {range(d.of_condition_tangent), range(d.of_determinant_tangent), range(d.of_condition_inverse_mass)};
 }
 
-/// The two bodies in space, from the planar state.
+/// The two bodies in space, computed from the planar state.
 std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   const auto& to_plane = scenario.problem->to_reference;
   const Frame planar = to_plane ? to_plane(scenario.request.parameters, frame.q, frame.p) : frame;
@@ -124,7 +124,7 @@ std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   return {first, second};
 }
 
-/// The state that follows from the energy of a start, in the digits of the run.
+/// The start that was computed from an energy, in the digits of the run.
 StateSummary start_of(const Scenario& scenario) {
   if (digits_beyond_double(scenario.request.arithmetic) == 0) return {scenario.start_q, scenario.start_p};
   Frame frame;
@@ -132,14 +132,14 @@ StateSummary start_of(const Scenario& scenario) {
   return {frame.q, frame.p, frame.digits};
 }
 
-/// phi is known up to whole turns: the one next to another value is meant.
+/// Adds whole turns to phi, so that it is as near as possible to another value. Other coordinates are not changed.
 double next_to(double other, const Scenario& scenario, std::size_t i, double x) {
   const double turn = 2 * pi_value<double>();
   const auto& coordinates = scenario.problem->info.coordinates;
   return i < coordinates.size() && coordinates[i] == "phi" ? x + turn * std::round((other - x) / turn) : x;
 }
 
-/// Each number of the parameters moved by one unit, one at a time.
+/// Copies of the parameters in which one number each is moved by one unit in the last place.
 std::vector<Texts> moved_parameters(const Texts& parameters) {
   std::vector<Texts> all;
   for (const auto& [name, text] : parameters) {
@@ -179,7 +179,7 @@ std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, con
     }
     for (std::size_t g = 0; g < sum.size(); ++g) sum[g] += most[g];
   };
-  // Where it is not known a rounding away, it is not known here how well it is.
+  // If the exact state is not known one rounding away, its uncertainty is unknown.
   const auto add_moved = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
     add(scenario.request.parameters, q, p, time, infinity);
   };
@@ -196,14 +196,14 @@ std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, con
     sum[groups.count() + groups.group(i)] += rounding * std::abs(exact.p[i]);
   }
   for (const Texts& parameters : moved_parameters(complete(scenario.problem->info, scenario.request.parameters))) {
-    // An exponent has no rounding, nor a closed form beside it.
+    // A moved exponent has no closed form; exponents are exact, so it adds nothing.
     add(parameters, scenario.start_q, scenario.start_p, t, 0);
   }
   return sum;
 }
 
-/// The sizes of the numbers of the exact motion up to a time. Where all of a kind are 0 at both ends, it is looked up
-/// at two times between them that are in step with no oscillation that both ends are in step with.
+/// The sizes of q and p along the exact motion up to a time. If all numbers of a kind are 0 at both ends, two times
+/// between are added, chosen so that an oscillation with zeros at both ends is not zero there.
 StateSizes sizes_of_exact(const Scenario& scenario, const Frame& end) {
   StateSizes sizes;
   sizes.include(scenario.start_q, scenario.start_p);
@@ -218,8 +218,8 @@ StateSizes sizes_of_exact(const Scenario& scenario, const Frame& end) {
   return sizes;
 }
 
-/// The exact state at the time reached, and how far the run is from it, by groups of numbers with one unit. It is known
-/// in double: of a run in more digits that is no further off nothing is said but how well it is known.
+/// The exact state at the time reached and the distance of the run from it, for each group of numbers with one unit.
+/// The closed form is computed in double; for a run with more digits its uncertainty is added.
 std::optional<ExactSummary> exact_of(const Scenario& scenario, const Frame& frame) {
   auto exact = scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, frame.time);
   if (!exact) return std::nullopt;
@@ -230,7 +230,7 @@ std::optional<ExactSummary> exact_of(const Scenario& scenario, const Frame& fram
   const UnitGroups groups = unit_groups(*scenario.problem, frame.q.size());
   const std::vector<GroupDistance> distances =
       group_distances(groups, sizes_of_exact(scenario, *exact), reached, *exact);
-  std::size_t furthest = 0;  // beside its size
+  std::size_t furthest = 0;  // the group with the largest relative distance
   Named<double> differences;
   for (std::size_t g = 0; g < distances.size(); ++g) {
     differences.emplace_back(distances[g].name, distances[g].distance.value);
@@ -253,23 +253,23 @@ std::optional<ExactSummary> exact_of(const Scenario& scenario, const Frame& fram
 
 }  // namespace
 
-/// The iteration by which steps are solved where nothing was said and it is not newton; else empty.
+/// The iteration that was chosen automatically; empty if it was requested or is newton.
 static std::string chosen_iteration(const Request& request) {
   const MethodSpec taken = method_taken(request);
   return taken.options == request.method.options ? "" : taken.options.at("iteration");
 }
 
-/// The hint of the outcome, and what method and problem add to it.
+/// See summary.hpp.
 std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
-    return "no dt helps: it is H that has a single root in that momentum, so that no hard wall throws it back; allowed "
-           "an H with two, such as p^2/2, or no wall there";
+    return "a smaller dt does not help: H = E has only one root in this momentum, so a hard wall cannot reflect it; "
+           "use an H with two roots, such as p^2/2, or remove the wall";
   }
   if (outcome == Outcome::not_converged) {
     const std::string solved = hint_after_divergence(request, differentiated);
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
-    // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
+    // Steps of varying length also fail in this way if their density is no longer positive; then nothing diverged.
     const auto problem_entry = find_problem(request);
     const ProblemEntry& problem = *problem_entry;
     const auto monitor = request.method.options.find(monitor_option);
@@ -280,7 +280,7 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
     const std::string of_density = "try a smaller dt" + other;
     return method.explicit_step
                ? of_density
-               : "where the density of steps is at fault, " + of_density + "; where a step was not solved, " + solved;
+               : "if the density of steps failed, " + of_density + "; if a step was not solved, " + solved;
   }
   std::string text(hint(outcome));
   if (outcome == Outcome::lattice_overflow) {
@@ -292,17 +292,17 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
       return std::any_of(problem.info.parameters.begin(), problem.info.parameters.end(),
                          [&](const ParameterInfo& each) { return each.name == name; });
     };
-    if (problem.has_pairwise_forces) {  // a kick is refused long before it is as large as what it is added to
+    if (problem.has_pairwise_forces) {  // a kick overflows long before it is as large as the momentum
       text += problem.container == ContainerNames::circle
-                  ? "; if two bodies met or one came near the soft wall, whose kick was too large, "
-                  : "; if two bodies met, whose kick was too large, ";
+                  ? "; if two bodies, or a body and the soft wall, came too close, try "
+                  : "; if two bodies came too close, try ";
       text += has("softening") ? "a smaller dt or a softening" : "a smaller dt";
     }
   }
   return text;
 }
 
-/// What was computed is kept; here is how to look at it and how to go on.
+/// The error of a failed run, with a hint how to look at the results and how to continue.
 RunError error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
   Frame frame;
   simulation.look(frame);
@@ -311,20 +311,21 @@ RunError error_of(const Scenario& scenario, const Simulation& simulation, const 
             frame.step,
             frame.time,
             result.file_trouble,
-            "make room, or write elsewhere with " + option_name("out") + "; the samples up to the last flush are kept",
+            "free disk space, or choose another folder with " + option_name("out") +
+                "; samples written before the failure are kept",
             {}};
   }
   const bool says_more =
       result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
-  const bool own_words = says_more && !result.failure.empty();
-  const std::int64_t step = frame.step + 1;  // the step that could not be taken
+  const bool has_message = says_more && !result.failure.empty();
+  const std::int64_t step = frame.step + 1;  // the step that failed
   return {std::string(name(result.outcome)),
           step,
           frame.time,
           fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
-                      own_words ? cause_of(result.failure) : std::string(message(result.outcome))),
+                      has_message ? cause_of(result.failure) : std::string(message(result.outcome))),
           hint_for(scenario.request, differentiates_steps(scenario), result.outcome, cause_of(result.failure)),
-          own_words ? numbers_of(result.failure) : std::string()};
+          has_message ? numbers_of(result.failure) : std::string()};
 }
 
 std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
@@ -373,7 +374,7 @@ InvariantSummary invariant_summary(const InvariantInfo& info, InvariantExcursion
 }
 
 std::optional<LongNumber> InvariantSummary::max_error() const {
-  // The largest deviation is one of those that are numbers: of what was none it says nothing.
+  // The largest deviation ignores values that are not finite, so it is unknown if there were any.
   const auto is_number = [](double x) { return std::isfinite(x); };
   const bool known = std::ranges::all_of(seen.initial, is_number) && std::ranges::all_of(seen.final, is_number);
   return known ? std::optional(largest_error(seen)) : std::nullopt;
@@ -384,7 +385,7 @@ static EnergySummary energy_of(const Scenario& scenario, const Excursion& seen, 
   const double scale = seen.scale();
   EnergySummary energy{with_digits(seen.initial, digits.initial_energy), with_digits(seen.final, digits.energy),
                        seen.max_error, scale, LongNumber(seen.max_error / scale)};
-  // Where H is 0 at the start, or nothing but rounding, there is nothing that an error could be a part of.
+  // If H is 0 at the start, or only rounding, there is no scale for a relative error.
   const bool is_zero = scale == 0 || (certificate != nullptr && std::isnan(certificate->energy_level.value));
   if (is_zero) energy.max_relative_error = seen.max_error == 0 ? std::optional(LongNumber(0)) : std::nullopt;
   if (scenario.map) {
@@ -392,7 +393,7 @@ static EnergySummary energy_of(const Scenario& scenario, const Excursion& seen, 
     energy.max_relative_error = std::nullopt;
   }
   if (certificate != nullptr && seen.max_error == 0 && !certificate->energy_level.text.empty()) {
-    // No double is so small: what the certificate found.
+    // The error is below the smallest double, so the text from the certificate is used.
     energy.max_relative_error = certificate->energy_level;
     energy.max_error = times(scale, certificate->energy_level.text);
   }
@@ -417,7 +418,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.steps = simulation.step();
   if (!request.start.energy.empty()) s.start = start_of(scenario);
   s.energy = energy_of(scenario, simulation.energy(), frame.digits, certificate);
-  if (scenario.hamiltonian) {  // the energy above is H less the work of the drive
+  if (scenario.hamiltonian) {  // the energy above is H minus the work of the drive
     Frame start;
     start.q = scenario.start_q;
     start.p = scenario.start_p;
@@ -446,7 +447,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
     s.newton = {s.effort.solves_min, mean, s.effort.solves_max, s.effort.stagnated, chosen_iteration(request)};
   }
   const std::vector<std::string> walls = bounce_names(scenario);
-  for (std::size_t k = 0; const WallCount& wall : simulation.wall_counts()) {  // those of one name are counted together
+  for (std::size_t k = 0; const WallCount& wall : simulation.wall_counts()) {  // walls with one name share a count
     const std::string& name = walls.at(k++);
     const auto found = std::ranges::find(s.events, name, &std::pair<std::string, std::int64_t>::first);
     (found != s.events.end() ? found->second : s.events.emplace_back(name, 0).second) += wall.bounces;

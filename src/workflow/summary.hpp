@@ -1,4 +1,4 @@
-// How the summary of a run comes about.
+// Makes the summary of a run.
 #pragma once
 
 #include <string_view>
@@ -14,33 +14,33 @@ namespace hamflow {
 class Measures;
 struct MemberStop;
 
-/// What the run itself found out.
+/// The result of taking the steps of a run.
 struct RunResult {
   Outcome outcome = Outcome::done;
   std::string failure;       // a sentence about the step that failed
-  std::string file_trouble;  // why the samples could not be written any further
+  std::string file_trouble;  // why samples could not be written
   double wall_seconds = 0;
   std::int64_t steps_taken = 0;
 };
 
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
-/// Whether the run needs the derivative of each step, which a step that was halved does not have.
+/// Whether the run needs the derivative of each step. A halved step does not have one.
 inline bool differentiates_steps(const Scenario& scenario) { return scenario.lyapunov > 0 || scenario.eigenvalues; }
-/// The hint of the outcome, and what method, problem and the sentence about the failure add to it.
+/// The hint for an outcome, which depends on the method, the problem and the message of the failure, too.
 std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure);
 /// The error of a run that failed.
 RunError error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result);
-/// What the effective potential tells of the start of a problem that describes its orbits.
+/// The orbit through the start, from the effective potential, for a problem that describes its orbits.
 OrbitSummary orbit_of(const Scenario& scenario);
-/// @param digits all of them, in arithmetic beyond double
+/// @param digits all digits, in arithmetic with more digits than double; else empty
 StateAtTime state_at(double t, std::vector<double> q, std::vector<double> p, FrameDigits digits);
 /// @param name of the event
 StopSummary stop_summary(const std::string& name, const MemberStop& stop);
-/// How an invariant with this declaration is reported.
+/// The summary of an invariant with this declaration.
 InvariantSummary invariant_summary(const InvariantInfo& info, InvariantExcursion seen);
-/// @param certificate null where nobody has watched   @param measures null where nothing was measured
-/// @param turns null where nobody has watched for long steps
+/// @param certificate null: there is none   @param measures null: nothing was measured
+/// @param turns null: long steps were not looked for
 Summary summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                    const RunCertificate* certificate = nullptr, const Measures* measures = nullptr,
                    const TurnWatch* turns = nullptr);

@@ -1,4 +1,4 @@
-// The keys of what summaries of runs, sweeps and reversals have in common.
+// The JSON keys that summaries of runs, sweeps and reversals have in common.
 #pragma once
 
 #include "hamflow/workflow/summary.hpp"

@@ -1,4 +1,4 @@
-// The keys of a summary, in their order.
+// The JSON keys of a summary, in the order in which they are written.
 #include "json_text.hpp"
 #include "measures/measure.hpp"
 #include "summary.hpp"
@@ -83,7 +83,7 @@ void fields(Ar& ar, MomentumMap& x) {
   const std::optional<bool> conserved = x.conserved();
   std::string verdict = !x.rounding ? "" : !conserved ? "undecided" : *conserved ? "to rounding" : "not";
   ar.text_or_null("conserved", verdict);
-  // Any bound on either side of the error tells the verdict.
+  // An infinite bound gives the verdict "undecided" for every error.
   if (Ar::reading && verdict == "undecided") x.doubtful = std::numeric_limits<double>::infinity();
 }
 
@@ -166,7 +166,7 @@ std::string summary_json(const Summary& summary) { return json_text(JsonWriter::
 Summary read_summary(const std::string& json) {
   Summary all;
   JsonReader::read(read_json(json), all);
-  // Null is also what JSON makes of a quotient that is no number.
+  // JSON writes NaN as null, so a missing relative error may have been NaN.
   EnergySummary& energy = all.energy;
   if (energy.scale && std::isnan(energy.max_error.value)) {
     energy.max_relative_error = energy.max_relative_error.value_or(energy.max_error);

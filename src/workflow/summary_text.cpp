@@ -32,7 +32,7 @@ std::string list_text(const std::vector<double>& numbers, const std::vector<std:
 
 namespace {
 
-/// In two digits: "0.25", "6.3", "100".
+/// A percentage with two digits: "0.25", "6.3", "100".
 std::string percent_of(double share) {
   const double percent = 100 * share;
   return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
@@ -45,7 +45,7 @@ std::string orbit_text(const OrbitSummary& orbit) {
   return orbit.type + (orbit.conic.empty() ? "" : " (" + orbit.conic + ")") +
          fmt::format(", r = {} .. {}, apsidal angle {}", number(orbit.r_min),
                      is_finite(orbit.r_max) ? number(orbit.r_max) : "inf",
-                     is_finite(orbit.apsidal_angle) ? number(orbit.apsidal_angle) : "infinite or not known") +
+                     is_finite(orbit.apsidal_angle) ? number(orbit.apsidal_angle) : "infinite or unknown") +
          (orbit.falls_into_centre ? ", falls into the centre" : "");
 }
 
@@ -56,26 +56,24 @@ std::string certificate_text(const RunCertificate& c) {
     if (!map.rounding) continue;
     const std::optional<bool> conserved = map.conserved();
     text += fmt::format("; {} {}", map.name,
-                        !conserved   ? "kept or not: its error may be of rounding or of the method"
-                        : *conserved ? "kept to rounding"
-                                     : "not kept");
+                        !conserved   ? "conservation undecided: the error may come from rounding or from the method"
+                        : *conserved ? "conserved to rounding"
+                                     : "not conserved");
   }
   if (const auto& back = c.reversal) {
-    text +=
-        fmt::format("; {} ({} % of the run) there and back{}: {}",
-                    counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
-                    back->proves == ReversalProof::nothing ? " prove nothing" : fmt::format(": {}", name(back->proves)),
-                    back->reason);
+    text += fmt::format("; reversal tested over {} ({} % of the run): {}: {}",
+                        counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
+                        back->proves == ReversalProof::nothing ? "inconclusive" : name(back->proves), back->reason);
   }
   return text;
 }
 
-/// What was watched over every step.
+/// A quantity at the start and at the end, and its largest error over every step.
 std::string watched_text(const std::string& initial, const std::string& final,
                          const std::optional<LongNumber>& max_error) {
   const std::string ends = initial + " -> " + final + ", ";
-  if (!max_error || !is_finite(*max_error)) return ends + "how far off is not known";
-  return ends + "at most " + number_text(*max_error, "{:.3g}") + " off";
+  if (!max_error || !is_finite(*max_error)) return ends + "error unknown";
+  return ends + "largest error " + number_text(*max_error, "{:.3g}");
 }
 
 std::string invariant_text(const InvariantSummary& x) {
@@ -92,9 +90,9 @@ std::string exact_text(const ExactSummary& exact) {
     return number_text(difference.second, "{:.3g}") + " (" + difference.first + ")";
   });
   if (exact.uncertainty && exact.max_difference <= *exact.uncertainty) {
-    return fmt::format("at most {} off the closed form, which is known to {:.2g} only", off, *exact.uncertainty);
+    return fmt::format("distance {} from the closed form, which is only known to {:.2g}", off, *exact.uncertainty);
   }
-  return fmt::format("at most {} off the exact state", off);
+  return fmt::format("distance {} from the exact state", off);
 }
 
 }  // namespace
@@ -126,8 +124,8 @@ std::string summary_text(const Summary& s) {
   }
   row(s.hamiltonian ? "H - int dH/dt" : "energy",
       watched_text(number(energy.initial), number(energy.final), energy.max_error) +
-          (is_relative ? fmt::format(" ({} of its scale)", number_text(*energy.max_relative_error, "{:.3g}"))
-                       : " (not relative: H is 0 at the start)"));
+          (is_relative ? fmt::format(" ({} of the energy scale)", number_text(*energy.max_relative_error, "{:.3g}"))
+                       : " (no relative error, because H is 0 at the start)"));
   for (const InvariantSummary& each : s.invariants) row(each.name, invariant_text(each));
   if (s.constraints) {
     row("constraints", "|g| at most " + number_text(s.constraints->position, "{:.3g}") + ", |g' M^-1 p| at most " +
@@ -165,7 +163,7 @@ std::string summary_text(const Summary& s) {
   if (s.certificate) {
     row("certificate", certificate_text(*s.certificate));
   } else if (energy.scale) {  // a map has neither
-    row("certificate", "not asked for");
+    row("certificate", "not requested");
   }
   row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s.wall_seconds, s.steps_per_second));
   return text;

@@ -23,24 +23,25 @@
 namespace hamflow {
 
 namespace {
-constexpr std::size_t few = 8;  // values of a list that are drawn as lines
+constexpr std::size_t few = 8;  // a list of at most so many values is drawn as lines
 constexpr const char* usual_colour = "energy/max_error";
 
 bool draws_section(const Sweep& sweep, const std::string& colour) { return colour.empty() && sweep.common().section; }
 
 bool is_few(const Vary& vary) { return !vary.is_number() || (vary.is_list && vary.texts.size() <= few); }
 
-/// The keys over which a column is drawn: all but those that follow from others.
+/// The keys over which a column is drawn: all keys except those given by formulas of others.
 struct FigureKeys {
   std::vector<std::size_t> free;
-  std::size_t over = 0;  // along the horizontal axis
-  bool map = false;      // `above` is along the vertical one
+  std::size_t over = 0;  // the key of the horizontal axis
+  bool map = false;      // a colour map with the key `above` on the vertical axis
   std::size_t above = 0;
-  bool has_lines = false;  // a line for each value of `lines`
+  bool has_lines = false;  // one line for each value of the key `lines`
   std::size_t lines = 0;
 };
 
-/// Of two keys one of words has a line for each value, else the list of fewer values; none: a map.
+/// Chooses how two keys are drawn. A key of words gets one line for each value, else a short list of numbers does. If
+/// there is neither, a colour map is drawn.
 FigureKeys figure_keys(const Varied& varied) {
   FigureKeys keys{.free = varied.free_keys()};
   if (keys.free.empty()) return keys;
@@ -59,7 +60,7 @@ FigureKeys figure_keys(const Varied& varied) {
   return keys;
 }
 
-/// A column of numbers, or one of several side by side, with its name in sweep.csv; of one alone that in sweep.h5 too.
+/// A column of numbers with its name in sweep.csv. A column of width 1 also appears under its name in sweep.h5.
 struct DrawnColumn {
   std::string name;
   std::vector<double> numbers;
@@ -83,7 +84,7 @@ std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
   return all;
 }
 
-/// The values of a key of words, as they stand on an axis or in a legend.
+/// The values of a key of words, as labels of an axis or a legend.
 std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
   std::vector<std::string> words;
   for (const std::string& text : vary.texts) words.push_back(without_quotes(text));
@@ -92,12 +93,12 @@ std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
   return words;
 }
 
-/// Two have room beside each other, more stand upright.
+/// Labels of an axis. Two labels fit horizontally and are shortened; more are printed vertically.
 std::vector<std::string> axis_words(const Vary& vary) {
   return vary.texts.size() > 2 ? words_of(vary) : words_of(vary, 18);
 }
 
-/// Entries of a scenario's lists are counted from 0, and everything in figures from 1.
+/// The label of a list entry. Entries are counted from 0 in scenarios and from 1 in figures.
 std::string entry_label(const std::string& key) {
   const std::size_t open = key.find('[');
   const std::string number = open == std::string::npos ? "" : key.substr(open + 1, key.size() - open - 2);
@@ -113,7 +114,7 @@ std::string velocity_label(const std::string& coordinate) {
   return figures::symbol("v_" + (is_q ? name.substr(1) : name));
 }
 
-/// The last part of a key, and the coordinate that an entry of a start belongs to.
+/// The label of a varied key: the name of the coordinate for an entry of the start, else the last part of the key.
 std::string key_label(const Sweep& sweep, const std::string& path) {
   const StateNames& names = sweep.names().state();
   for (const auto& [key, list] : {std::pair{"problem.initial.q", &names.q}, {"problem.initial.p", &names.p}}) {
@@ -129,7 +130,8 @@ std::string key_label(const Sweep& sweep, const std::string& path) {
   return last == "dt" ? "d{/:Italic t}" : entry_label(last);
 }
 
-/// "angular momentum at the end", of NAME/final; of NAME/final2 that of its second number, NAME_2 of a run.
+/// The label of an invariant: NAME/final becomes "angular momentum at the end"; NAME/final2 is its second number,
+/// NAME_2.
 std::string invariant_label(const std::string& name) {
   const std::size_t slash = name.rfind('/');
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
@@ -142,7 +144,7 @@ std::string invariant_label(const std::string& name) {
   return what == "max_error" ? "largest error of " + label : figures::escaped(name);
 }
 
-/// "kin_1 at the end", of kin_1_final; empty for what is no observable of the user.
+/// The label of an observable: kin_1_final becomes "kin_1 at the end". Empty for other columns.
 std::string observable_label(const Sweep& sweep, const std::string& name) {
   for (const NamedExpression& observable : sweep.common().observables) {
     for (const auto& [end, words] :
@@ -153,7 +155,7 @@ std::string observable_label(const Sweep& sweep, const std::string& name) {
   return {};
 }
 
-/// "x" of final/q1, final/q of one coordinate too; empty for other columns.
+/// The coordinate of a column: "x" for final/q1, or for final/q of a single coordinate. Empty for other columns.
 std::string name_at_the_end(const Sweep& sweep, const std::string& column) {
   const StateNames& names = sweep.names().state();
   for (const auto& [table, list] : {std::pair{"final/q", &names.q}, {"final/p", &names.p}}) {
@@ -197,12 +199,12 @@ std::string title_of(const Sweep& sweep) {
 }
 
 bool is_done(const MemberRow& row) { return row.status == Outcome::done; }
-/// Points of a section belong to no time: those of a member that was interrupted are as good as others. One that blew
-/// up may have left some that are farther away than anything else.
+/// Whether the section points of a member are drawn. Those of an interrupted member are valid; a failed member may have
+/// points that are far away from all others.
 bool has_a_section(const MemberRow& row) { return !row.no_start && !is_failure(row.status); }
 
-/// What the paper shows where there is no colour, or no point.
-/// @param drawn whether a member is   @param without_value members that are, but for their value, inf or nan
+/// The note about members that are not drawn.
+/// @param drawn whether a member is drawn   @param without_value number of drawn members whose value is inf or nan
 std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&), std::size_t without_value = 0) {
   std::map<std::string, std::size_t> failed;
   std::size_t count = without_value;
@@ -219,7 +221,7 @@ std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&
       fmt::format("{}: {} of {} members ({})", map ? "white" : "not drawn", count, sweep.members(), joined(parts)));
 }
 
-/// The points of all members that have not failed, each in a colour of its own as long as there are colours.
+/// The section points of all members that did not fail. Every member has its own colour while there are enough colours.
 Figure section_figure_of(const Sweep& sweep) {
   const Scenario& common = sweep.common();
   const std::size_t n = common.start_q.size();
@@ -262,8 +264,8 @@ std::string column_of_state(const Sweep& sweep, const std::vector<DrawnColumn>& 
   return {};
 }
 
-/// The column that a name means: its own, that of a coordinate or momentum, or the only one that ends with it behind a
-/// slash. None of these: the name.
+/// The column for a name: the column itself, the column of a coordinate or momentum, or the only column that ends with
+/// a slash and the name. Otherwise the name is returned.
 std::string whole_name(const Sweep& sweep, const std::vector<DrawnColumn>& all, const std::string& name) {
   if (const std::string column = column_of_state(sweep, all, name); !column.empty()) return column;
   std::string found = name;
@@ -277,7 +279,7 @@ std::string whole_name(const Sweep& sweep, const std::vector<DrawnColumn>& all, 
   return ends == 1 ? found : name;
 }
 
-/// @throws Rejection where there is no such column
+/// @throws Rejection if there is no such column
 void check_column(const Sweep& sweep, const std::string& colour) {
   const std::vector<DrawnColumn> all = drawn_columns(sweep);
   const std::string name = whole_name(sweep, all, colour);
@@ -288,20 +290,19 @@ void check_column(const Sweep& sweep, const std::string& colour) {
                                   [&](const std::string& column) { return column.ends_with("/" + colour); });
   const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
   const bool exponent = colour.find("lyapunov") != std::string::npos && meant.empty();
-  throw Rejection(option_name("colour"),
-                  "found " + colour + "; allowed " + joined(columns) + meant +
-                      (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : ""));
+  throw Rejection(option_name("colour"), "found " + colour + "; allowed " + joined(columns) + meant +
+                                             (exponent ? "; run.lyapunov = 1 adds observables/lyapunov1" : ""));
 }
 
 std::vector<std::string> columns_to_average(const std::string& columns) {
   return columns.empty() ? std::vector<std::string>{usual_colour} : split_list(columns);
 }
 
-/// Of numbers that are independent; both are 0 for none, the error for one.
+/// Mean and standard error of independent numbers. Without numbers both are 0; for one number the error is 0.
 struct MeanOfMembers {
   std::size_t count = 0;
   double mean = 0;
-  double squares = 0;  // of the distances from the mean, updated one by one
+  double squares = 0;  // sum of squared distances from the mean, updated with each number
   void add(double x) {
     ++count;
     const double before = x - mean;
@@ -322,7 +323,7 @@ void check_mean_figure(const Sweep& sweep, const std::filesystem::path& file, co
   const std::vector<std::size_t> free = sweep.varied().free_keys();
   if (free.size() < 2) {
     throw Rejection(option_name("mean"),
-                    "found one key that is varied by itself; allowed two or more: the mean is over all but the first");
+                    "found one independent key; allowed two or more, since the mean is over all keys except the first");
   }
   for (const std::string& column : columns_to_average(columns)) check_column(sweep, column);
 }
@@ -339,7 +340,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   figure.x_label = key_label(sweep, key.path);
   figure.value_label = names.size() == 1 ? "mean of " + value_label(sweep, names[0]) : "mean";
   if (!key.is_number()) figure.x_words = axis_words(key);
-  std::vector<std::size_t> done(key.texts.size());  // members that have come to their end, at each place
+  std::vector<std::size_t> done(key.texts.size());  // number of finished members for each value of the first key
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     if (sweep.rows()[member].status == Outcome::done) ++done[varied.place(member, over)];
   }
@@ -351,7 +352,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
     for (std::size_t member = 0; member < sweep.members(); ++member) {
       const std::size_t place = varied.place(member, over);
       x[place] = key.is_number() ? varied.number(member, over) : static_cast<double>(place);
-      // What a member that broke off reached belongs to another time than the others.
+      // The values of an unfinished member belong to an earlier time than those of the others.
       if (sweep.rows()[member].status == Outcome::done) means[place].add(column->numbers[member]);
     }
     for (std::size_t k = 0; k < means.size(); ++k) {
@@ -363,7 +364,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
       if (names.size() > 1) figure.line.push_back(value_label(sweep, name));
     }
   }
-  std::erase(done, 0U);  // where nothing is drawn
+  std::erase(done, 0U);  // nothing is drawn for these values
   if (!done.empty()) {
     const auto [fewest, most] = std::minmax_element(done.begin(), done.end());
     figure.notes.push_back("bars: standard error of the mean over " +
@@ -371,8 +372,8 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
                            " members");
   }
   if (without_value > 0) {
-    figure.notes.push_back(fmt::format("not drawn: {} of {} means, of members without a finite value", without_value,
-                                       figure.value.size()));
+    figure.notes.push_back(
+        fmt::format("not drawn: {} of {} means, which are not finite", without_value, figure.value.size()));
   }
   const std::string note = note_of(sweep, false, is_done);
   if (!note.empty()) figure.notes.push_back(note);
@@ -385,8 +386,8 @@ void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, c
   if (draws_section(sweep, colour)) {
     if (!sweep.names().have_same_state()) {
       throw Rejection(option_name("figure"),
-                      "found a section of members with different coordinates; allowed members with the same "
-                      "coordinates, or " +
+                      "found a section of members with different coordinates; allowed if all members have the same "
+                      "coordinates, or with " +
                           option_name("colour") + " COLUMN");
     }
     const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
@@ -403,8 +404,9 @@ void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, c
   }
   if (keys.has_lines && sweep.varied().keys()[keys.lines].texts.size() > most_map_lines) {
     const Vary& lines = sweep.varied().keys()[keys.lines];
-    throw Rejection(option_name("figure"), fmt::format("found {} values of {}, a line each; allowed up to {}",
-                                                       lines.texts.size(), lines.path, most_map_lines));
+    throw Rejection(option_name("figure"),
+                    fmt::format("found {} values of {}, which need one line each; allowed up to {}", lines.texts.size(),
+                                lines.path, most_map_lines));
   }
   check_column(sweep, colour);
 }
@@ -414,7 +416,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
     const Figure figure = section_figure_of(sweep);
     if (figure.runs.empty()) {
       throw FileError("cannot draw " + file.string() + ": no member has a point of the section" +
-                      (figure.notes.empty() ? "" : ", but for those that failed"));
+                      (figure.notes.empty() ? "" : " (failed members are not drawn)"));
     }
     write_figure(figure, "section", file);
     return;
@@ -445,7 +447,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
       const std::string& text = lines.at(varied.place(member, keys.lines));
       figure.line.push_back(line.is_number() ? key_label(sweep, line.path) + " = " + text : text);
     }
-    // What a member that broke off reached belongs to another time than the others.
+    // The values of an unfinished member belong to an earlier time than those of the others.
     if (!is_done(sweep.rows()[member])) {
       figure.value[member] = std::numeric_limits<double>::quiet_NaN();
     } else if (!std::isfinite(figure.value[member])) {

@@ -1,4 +1,4 @@
-// The figure of a sweep: a column of its table over the keys that were varied.
+// The figure of a sweep: a column of its table as a function of the varied keys.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,14 @@
 
 namespace hamflow {
 
-/// Empty if the figure can be drawn, else what is wrong with the request for it.
+/// Checks that the figure can be drawn.   @throws Rejection
 void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
 
 /// @throws Error, FileError
 void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
 
-/// The same of the means of columns, commas between, over all varied keys but the first, with their standard errors.
+/// The same for means of columns (names separated by commas) over all varied keys except the first, with standard
+/// errors.
 void check_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);
 /// @throws Error, FileError
 void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);

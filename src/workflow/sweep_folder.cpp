@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* journal_name = "members.bin";
 
-/// What differs from the sweep that began.
+/// The differences from the sweep in the folder that forbid resuming.
 std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
   began.version = before.version;
@@ -42,7 +42,7 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
 }  // namespace
 
 SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
-  const Checkpoint of_scenario = beginning_of(sweep.common(), "");
+  const Checkpoint of_scenario = first_checkpoint(sweep.common(), "");
   return {.version = of_scenario.version,
           .keys = of_scenario.keys,
           .values = of_scenario.values,
@@ -55,35 +55,35 @@ SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path fol
   SweepPast past;
   past.head = head_of(sweep, request);
   if (!folder_.note().empty()) notes_.push_back(folder_.note());
-  if (folder_.goes_on()) {
+  if (folder_.resumes()) {
     SweepPast found = read_journal(folder_ / journal_name);
     wrong_ = differences_of(sweep, past.head, found.head);
     if (!wrong_.empty()) return;
     past.members = std::move(found.members);
     restore(past);
-    folder_.remove("summary.json");  // of the part before
+    folder_.remove("summary.json");  // belongs to the part before
   }
   folder_.prepare(sweep_.common());
   journal_.emplace(folder_ / journal_name, past);
 }
 
-/// Members that are not finished with as many steps as they are to take now are run again, from their beginning.
+/// Restores finished members. Those that were finished with another number of steps are run again from the start.
 void SweepFolder::restore(SweepPast& past) {
   std::size_t shorter = 0;
   for (const auto& [member, finished] : past.members) {
     seconds_before_ = std::max(seconds_before_, finished.seconds);
-    if (member >= sweep_.members()) throw FileError(folder_.path().string() + ": members.bin is of another sweep");
+    if (member >= sweep_.members()) throw FileError(folder_.path().string() + ": members.bin belongs to another sweep");
     if (finished.steps != sweep_.steps_of(member)) ++shorter;
   }
   std::erase_if(past.members, [&](const auto& each) { return each.second.steps != sweep_.steps_of(each.first); });
   for (const auto& [member, finished] : past.members) sweep_.restore(member, finished.row);
   if (shorter > 0) {
-    notes_.push_back(fmt::format("{} members were finished with another number of steps: they are run again", shorter));
+    notes_.push_back(fmt::format("{} members had another number of steps; they are run again", shorter));
   }
   if (const std::size_t left = sweep_.members_left(); left == 0) {
-    notes_.emplace_back("the sweep is complete: there is nothing to do");
+    notes_.emplace_back("the sweep is complete already; there is nothing to do");
   } else {
-    notes_.push_back(fmt::format("{} of {} members are finished", sweep_.members() - left, sweep_.members()));
+    notes_.push_back(fmt::format("{} of {} members are finished already", sweep_.members() - left, sweep_.members()));
   }
 }
 
@@ -105,7 +105,7 @@ void SweepFolder::save_if_due() {
     const SweepTables tables = tables_of(sweep_);
     hold.unlock();
     write_table(tables);
-  } catch (const std::exception&) {  // a full disk, too little memory: the sweep itself goes on
+  } catch (const std::exception&) {  // e.g. a full disk or too little memory; the sweep itself continues
     failed_ = true;
   }
   last_ = Clock::now();

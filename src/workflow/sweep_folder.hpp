@@ -1,4 +1,4 @@
-// The folder of a sweep: members.bin, from which it goes on, and its table, written while it runs.
+// The folder of a sweep: the checkpoint members.bin, and the table, which is rewritten while the sweep runs.
 #pragma once
 
 #include <atomic>
@@ -15,27 +15,27 @@
 
 namespace hamflow {
 
-/// Which sweep it is.
+/// The header that identifies a sweep.
 SweepHead head_of(const Sweep& sweep, const SweepRequest& request);
 
 class SweepFolder {
  public:
-  /// Makes the folder; with Existing::resume reads what is there and restores the members that are finished, unless
-  /// wrong() says why the sweep cannot go on: then nothing was touched.   @throws FileError
+  /// Makes the folder. With Existing::resume it restores the finished members; if wrong() is not empty, the sweep
+  /// cannot be resumed and no file was touched.   @throws FileError
   SweepFolder(Sweep& sweep, const SweepRequest& request, std::filesystem::path folder, Existing existing);
   const std::vector<Complaint>& wrong() const { return wrong_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Of the sweep, all its parts together.
+  /// Wall time of all parts of the sweep together.
   double seconds() const;
-  /// The clock of this part begins.
+  /// Starts the clock of this part.
   void begin() { begin_ = last_ = Clock::now(); }
-  /// A member is finished.   @throws FileError
+  /// Saves a finished member.   @throws FileError
   void keep(std::size_t member);
-  /// Writes the table again, four times a second or, where that takes long, as often as takes a twentieth of the time.
-  /// Trouble is left to save(), which tries again.
+  /// Rewrites the table at most four times a second, and so seldom that writing takes at most a twentieth of the time.
+  /// Errors are ignored here, because save() tries again.
   void save_if_due();
-  /// The table as it is in the end, and the summary.   @throws FileError
+  /// Writes the final table and the summary.   @throws FileError
   void save(const std::string& summary);
 
  private:
@@ -52,7 +52,7 @@ class SweepFolder {
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_ = begin_;
   Clock::duration pause_ = std::chrono::milliseconds(250);
-  std::atomic<bool> is_behind_{true};  // a member was finished since the table was written, or there is none yet
+  std::atomic<bool> is_behind_{true};  // a member has finished since the table was written, or no table exists yet
   bool failed_ = false;
 };
 

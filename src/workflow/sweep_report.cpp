@@ -28,7 +28,7 @@ std::size_t count_without_start(const Sweep& sweep) {
       std::count_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return row.no_start; }));
 }
 
-/// The first members that failed; behind those that broke off the ones without a start, of which there may be many.
+/// The first members that failed. Members without a start come last, because there may be many of them.
 std::vector<MemberFailure> failures_of(const Sweep& sweep) {
   std::vector<MemberFailure> all;
   for (const bool no_start : {false, true}) {
@@ -41,17 +41,18 @@ std::vector<MemberFailure> failures_of(const Sweep& sweep) {
   return all;
 }
 
-/// Of all members together. That dt is long for an oscillation, or an orbit falls into the centre, is said by a run of
-/// a single member.
+/// The warnings for all members together. Warnings about a long dt or a fall into the centre are only given by a run of
+/// the single member.
 std::vector<Warning> sweep_warnings(const Sweep& sweep) {
   const auto is_nonsense = [](const MemberRow& row) { return row.nonsense; };
   const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_nonsense);
   const auto count = std::count_if(first, sweep.rows().end(), is_nonsense);
   if (count == 0) return {};
-  return {{"energy_error",
-           fmt::format("the energy of {} of {} members was off by more than the motion exchanges, first of member "
-                       "{}: they are done, but no motion of {}; try a smaller dt",
-                       count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}};
+  return {
+      {"energy_error",
+       fmt::format("the energy error of {} of {} members is larger than the energy that the motion exchanges, first "
+                   "in member {}; these results of {} are meaningless; try a smaller dt",
+                   count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}};
 }
 
 Named<VariedKey> varied_of(const Sweep& sweep) {
@@ -72,7 +73,7 @@ Named<VariedKey> varied_of(const Sweep& sweep) {
   return varied;
 }
 
-/// What one key says of every member; nothing where it is varied.
+/// The value of a key that is the same for all members; nullopt if the key is varied.
 std::optional<std::string> common_to_all(const Sweep& sweep, const std::string& path, const std::string& value) {
   const std::vector<Vary>& keys = sweep.varied().keys();
   const bool is_varied = std::any_of(keys.begin(), keys.end(), [&](const Vary& key) { return key.path == path; });
@@ -85,7 +86,8 @@ Named<Value> varied_of_member(const Sweep& sweep, std::size_t member) {
   for (std::size_t key = 0; key < varied.size(); ++key) {
     const Vary& vary = varied.keys()[key];
     const std::string given = without_quotes(varied.text(member, key));
-    // A third is no double: beyond double the row gives what the member can be run again from.
+    // A number such as 1/3 is not a double. With more digits than double the row keeps its text, from which the member
+    // can be run again.
     const bool is_double =
         vary.is_number() && (!sweep.beyond_double() || given == shortest(varied.number(member, key)));
     all.emplace_back(vary.path, is_double ? Value(varied.number(member, key)) : Value(given));
@@ -104,7 +106,7 @@ Named<double> columns_of_member(const Sweep& sweep, std::size_t member) {
   return all;
 }
 
-/// As in the summary of the single run.
+/// The observables as in the summary of a single run.
 std::vector<ObservableSummary> observables_of_member(const Sweep& sweep, const Named<double>& columns) {
   std::vector<ObservableSummary> all;
   if (columns.empty()) return all;
@@ -168,7 +170,7 @@ SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted,
   s.instruction_set = name(sweep.lanes());
   s.lanes = sweep.members_in_lanes() > 0 ? sweep.lane_count() : 1;
   s.members_in_lanes = sweep.members_in_lanes();
-  if (sweep.beyond_double()) s.note = "members beyond double run one by one on the threads: lanes are for double";
+  if (sweep.beyond_double()) s.note = "SIMD lanes need double arithmetic, so each thread runs one member at a time";
   s.threads = sweep.threads();
   s.warnings = sweep_warnings(sweep);
   if (sweep.common().section) {
@@ -199,7 +201,7 @@ void fields(Ar& ar, MemberEnergy& x) {
   ar("initial", x.initial, "final", x.final, "max_error", x.max_error, "scale", x.scale);
 }
 
-/// Of a member that does not have an invariant.
+/// The entry of a member that does not have this invariant.
 struct NoInvariant {
   std::optional<double> nothing;
 };
@@ -256,7 +258,7 @@ std::string sweep_text(const SweepSummary& s) {
   line("members", fmt::format("{} ({} done, {} failed, {} unfinished)", s.members, s.done, s.failed, s.unfinished));
   if (s.no_start > 0) {
     line("no start",
-         fmt::format("{} of the failed: the energy, or what a formula asks for, is out of reach", s.no_start));
+         fmt::format("{} of the failed members: no start has the given energy, or a formula has no value", s.no_start));
   }
   for (const auto& [path, key] : s.varied) {
     std::string values = counted(key.count, "value");

@@ -1,4 +1,4 @@
-// How the summary of a sweep comes about.
+// Makes the summary of a sweep.
 #pragma once
 
 #include "hamflow/detail/workflow/sweep_summary.hpp"

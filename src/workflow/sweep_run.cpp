@@ -33,7 +33,7 @@ LaneSet lanes_named(const std::string& name) {
   throw Error("found \"" + name + "\"; allowed on this machine: " + joined(allowed) + suggestion(name, allowed));
 }
 
-/// Whether a key decides nothing but what a single run writes, and when.
+/// Whether a key only decides what a single run writes and when.
 bool belongs_to_single_runs(const std::string& path) {
   const RunKeys& keys = run_keys();
   const std::vector<std::string> all{output_table, run_path(keys.checkpoint_every), run_path(keys.record_every),
@@ -42,7 +42,7 @@ bool belongs_to_single_runs(const std::string& path) {
                      [&](const std::string& key) { return is_part_of_other(key, path) && path.size() >= key.size(); });
 }
 
-/// Whether a key decides which columns, or which section, the one table of a sweep has.
+/// Whether a key decides which columns, or which section, the table of a sweep has.
 bool decides_columns(const std::string& path) {
   const RunKeys& keys = run_keys();
   for (const OptionInfo& key : {keys.lyapunov, keys.eigenvalues, keys.section}) {
@@ -51,8 +51,8 @@ bool decides_columns(const std::string& path) {
   return false;
 }
 
-/// Of members of a gas that are done, read anew, how many may have let particles pass through each other: told once,
-/// of the first.
+/// For a gas: adds one warning with the number of finished members in which particles may have passed through each
+/// other. Its details are those of the first such member.
 void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Warning>& warnings) {
   if (!sweep.common().problem->particles) return;
   MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
@@ -80,7 +80,7 @@ void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Wa
       {"long_step", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)});
 }
 
-/// What is wrong with the request beside its scenario goes into `wrong`.
+/// Reads the varied keys. Errors in the request other than those of the scenario are added to `wrong`.
 Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Complaint>& wrong) {
   std::vector<Vary> varied;
   const auto complain = [&](const char* option, std::string message) {
@@ -110,15 +110,15 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
   }
   for (const Vary& vary : varied) {
     if (decides_columns(vary.path)) {
-      complain("vary", "found " + vary.path + ", which all members of a sweep have in common; allowed " +
-                           set_option(vary.path, "...") + ", a sweep for each value");
+      complain("vary", "found " + vary.path + ", which must be the same for all members; allowed " +
+                           set_option(vary.path, "...") + ", with a sweep for each value");
     }
     if (!belongs_to_single_runs(vary.path)) continue;
     complain("vary",
              "found " + vary.path +
                  (is_part_of_other(output_path(output_keys().observables), vary.path)
-                      ? ", which all members of a sweep have in common; allowed " + set_option(vary.path, "...") + ", "
-                      : ", on which no number of a sweep depends; allowed ") +
+                      ? ", which must be the same for all members; allowed " + set_option(vary.path, "...") + ", "
+                      : ", which does not change the results of a sweep; allowed ") +
                  "keys of [problem], [method] and the others of [run]");
   }
   for (std::size_t i = 0; i < varied.size(); ++i) {
@@ -126,7 +126,7 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
       if (varied[i].path == varied[j].path) {
         complain("vary", "found " + varied[i].path + " twice");
       } else if (is_part_of_other(varied[i].path, varied[j].path)) {
-        complain("vary", "found " + varied[j].path + " beside " + varied[i].path +
+        complain("vary", "found " + varied[j].path + " and " + varied[i].path +
                              ", of which one replaces the other; allowed one of them");
       }
     }
@@ -166,10 +166,11 @@ class ScenarioSweep::Impl {
     notes = sweep->notes();
     const Scenario& common = sweep->common();
     if (!common.folder.empty())
-      notes.push_back(output_path(output_keys().folder) + " is not used: the folder of a sweep is that of " +
-                      option_name("out"));
+      notes.push_back(output_path(output_keys().folder) + " is not used: " + option_name("out") +
+                      " gives the folder of a sweep");
     if (!common.figures.empty())
-      notes.push_back(output_path(output_keys().figures) + " is not used: a sweep draws with " + option_name("figure"));
+      notes.push_back(output_path(output_keys().figures) + " is not used: " + option_name("figure") +
+                      " draws the figure of a sweep");
   }
 
   SweepRequest request;
@@ -223,11 +224,11 @@ void ScenarioSweep::take(std::span<const std::byte> finished_members) {
   SweepPast past = journal_in(finished_members, "the result of a shard");
   const SweepHead own = head_of(sweep, impl_->request);
   if (past.head.version != own.version) {
-    throw Error("found members of hamflow " + past.head.version + "; allowed those of " + own.version +
-                ", as bits can depend on it");
+    throw Error("found members computed by hamflow " + past.head.version + "; allowed hamflow " + own.version +
+                ", since results can depend on the version");
   }
   if (past.head.varied != own.varied || past.head.in_step != own.in_step) {
-    throw Error("found members of another sweep; allowed those of the same scenario and the same varied keys");
+    throw Error("found members of another sweep; allowed members with the same scenario and the same varied keys");
   }
   for (auto& [member, finished] : past.members) {
     if (member >= sweep.members() || finished.steps != sweep.steps_of(member)) {
@@ -254,7 +255,7 @@ SweepReport ScenarioSweep::report() {
   report.text = sweep_text(summary);
   report.warnings = warning_lines(summary.warnings);
   for (const MemberFailure& failure : summary.failures) {
-    // That there is no start at an energy is seldom worth a line each, where other members have one.
+    // Members without a start are not listed if other members have one, since they are often many.
     if (failure.kind == "no_start" && summary.no_start != summary.members) continue;
     report.failures.push_back(fmt::format("member {}, step {}: {}", failure.member, failure.step, failure.message));
     if (report.hint.empty() && failure.kind == name(Outcome::not_converged)) {

@@ -25,8 +25,7 @@ std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
   return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);
 }
 
-/// The time from one turn of a Cartesian coordinate to the next but one, or of the radius where that is longer; 0 where
-/// it is not known.
+/// The period of a Cartesian coordinate on the orbit, or of the radius if that is longer; 0 if it is not known.
 double period_of_orbit(const OrbitSummary& orbit) {
   if (orbit.falls_into_centre) return 0;
   const double radial = orbit.radial_period;
@@ -35,8 +34,8 @@ double period_of_orbit(const OrbitSummary& orbit) {
   return std::isfinite(round) && std::isfinite(radial) ? std::max(radial, round) : 0;
 }
 
-/// From one bounce off a wall to the next off the same: the mean of the wall that was met most often, which no fastest
-/// oscillation is slower than. Where there are several bounces in a step its two ends tell nothing of it.
+/// The mean time between bounces off the wall that was hit most often. The fastest oscillation has at most this period.
+/// It also counts several bounces within one step, which the states at its two ends do not show.
 /// @param length the time of all steps, or more
 std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, double length) {
   std::optional<FastestTurns> fastest;
@@ -48,8 +47,8 @@ std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, do
   return fastest;
 }
 
-/// Whether H does not depend on the coordinates, as far as states between the start and the end show: every method's
-/// step is then exact, however long it is. A wall whose rule rejects steps makes them inexact all the same.
+/// Whether H does not depend on the coordinates, judged from states between the start and the end. Then every step is
+/// exact, whatever its length, unless a wall rejects steps or is soft.
 bool flies_freely(const Scenario& scenario, const Frame& end) {
   const auto& walls = scenario.request.walls;
   if (walls && (walls->rule == WallRule::reject || walls->rule == WallRule::soft)) return false;
@@ -67,8 +66,8 @@ bool flies_freely(const Scenario& scenario, const Frame& end) {
 }
 
 void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
-  // Of steps of varying length dt is the first: it is compared with the period of an orbit that is known, and so is
-  // their mean, since a density that is summed up from steps that are too long leaves what it should follow.
+  // With steps of varying length, dt is only the first one. It is compared with the known period of the orbit, and so
+  // is the mean step, because a density that is integrated with too long steps no longer follows its monitor.
   const bool varies = describe(scenario.request.method).varies_steps;
   const auto seen = varies ? std::nullopt : motion.turns->fastest();
   const double first = varies ? std::abs(scenario.dt) : motion.turns->longest_step();
@@ -90,8 +89,8 @@ void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::v
   if (period == 0 || steps_per_period * dt <= period) return;
   const double enough = period / (2 * steps_per_period);
   if (mean > first) {
-    all.push_back({"long_step", fmt::format("the mean of the steps, {:.3g}, is more than a tenth of the {}; try "
-                                            "dt = {:.2g} or less, of which they follow, or another monitor",
+    all.push_back({"long_step", fmt::format("the mean step, {:.3g}, is more than a tenth of the {}; try dt = {:.2g} or "
+                                            "less, to which all steps are proportional, or another monitor",
                                             mean, whose, scenario.dt * enough / mean)});
     return;
   }
@@ -99,11 +98,10 @@ void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::v
                  fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less", dt, whose, enough)});
 }
 
-/// What the springs of tao2 and tao4 turn the copies by in a step is twice omega dt, and the error grows as omega
-/// dt^order.
+/// The springs of tao2 and tao4 rotate the copies by 2 omega dt in a step, and the error grows as omega dt^order.
 constexpr double most_turn_of_springs = 0.25;
 
-/// omega dt of a method that carries a copy of the state.
+/// omega dt, for a method that carries a second copy of the state.
 double turn_of_springs(const Scenario& scenario) {
   const MethodSpec& method = scenario.request.method;
   const std::vector<OptionInfo>& options = find_method(method.name).family->options;
@@ -118,18 +116,18 @@ void add_fast_springs(const Scenario& scenario, std::vector<Warning>& all) {
   if (!describe(scenario.request.method).carries_copy) return;
   const double turn = turn_of_springs(scenario);
   if (!(turn > most_turn_of_springs)) return;
-  all.push_back({"long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
-                                          "the state are too fast for the step; try dt = {:.2g} or less",
+  all.push_back({"long_step", fmt::format("omega dt = {:.3g} is above 1/4, so the springs between the two copies of "
+                                          "the state are too fast for this step; try dt = {:.2g} or less",
                                           turn, scenario.dt * most_turn_of_springs / turn)});
 }
 
-/// Where the energy of (q, p) is off by more than a little the two copies of tao2 and tao4 may have parted: the method
-/// keeps the energy of both together. They are followed again from the start, in double, until they have.
+/// Warns if the two copies of tao2 and tao4 have separated. The method conserves the energy of both copies together, so
+/// a large energy error of (q, p) suggests it. The run is repeated in double until the copies have separated.
 /// @param size of the energy
 void add_parted_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps,
                        std::vector<Warning>& all) {
-  constexpr double least_error = 0x1p-8;  // of the energy: what is below comes from copies that are together
-  constexpr double most = 0x1p-5;         // of the size of the state
+  constexpr double least_error = 0x1p-8;  // relative energy error; copies that are together have less
+  constexpr double most = 0x1p-5;         // distance of the copies relative to the size of the state
   constexpr std::int64_t most_steps = std::int64_t{1} << 22U;
   constexpr std::int64_t looks = 1024;
   const ProblemEntry& problem = *scenario.problem;
@@ -170,8 +168,8 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
                                      : std::string("a smaller dt and a larger omega, with omega dt below 1/4");
       all.push_back(
           {"parted_copies",
-           fmt::format("the two copies of the state have parted by {:.2g} of the size of {} at t = {:.4g}: what comes "
-                       "after is no motion of {}; try {}",
+           fmt::format("the two copies of the state are separated by {:.2g} of the size of {} at t = {:.4g}; later "
+                       "results of {} are meaningless; try {}",
                        group.relative.value, group.name, static_cast<double>(step) * scenario.dt, request.problem,
                        advice)});
       return;
@@ -179,33 +177,33 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
   }
 }
 
-/// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes
-/// steps of half a period and more cannot rely on what those do.
+/// Warns if bounces, section points or events are searched within steps of half a period or more. A method without
+/// sub-steps searches on its own partial steps, which are not reliable then.
 void add_long_search(const Scenario& scenario, const Simulation& simulation, std::vector<Warning>& all) {
   const bool seeks = has_hard_walls(scenario.request) || scenario.section || !scenario.events.empty();
   const auto& walls = scenario.request.walls;
-  const bool sees_ends_alone = walls && walls->rule == WallRule::reject;  // of steps
+  const bool sees_ends_alone = walls && walls->rule == WallRule::reject;  // walls are only checked at ends of steps
   if (!seeks || simulation.step() == 0 || (simulation.method().own_substeps && !sees_ends_alone)) return;
   if (std::any_of(all.begin(), all.end(), [](const Warning& each) { return each.kind == "long_step"; })) return;
   SectionSearch search({}, [](const SectionPoint&) {});
   search.measure(simulation);
   if (!search.is_long()) return;
-  all.push_back({"long_step", fmt::format("dt = {:g} is half a period of the motion or more: bounces, points of a "
-                                          "section and events within a step are those of the method, and may "
-                                          "be fewer or more than those of the motion; try a smaller dt",
-                                          scenario.dt)});
+  all.push_back(
+      {"long_step", fmt::format("dt = {:g} is half a period of the motion or more, so bounces, section points "
+                                "and events may be missing or spurious; try a smaller dt",
+                                scenario.dt)});
 }
 
-/// What is watched and was no number at the start or at the end may be kept or not.
+/// Warns about invariants that are not finite at the start or at the end, so that their errors are unknown.
 void add_no_numbers(const Summary& summary, std::vector<Warning>& all) {
-  if (summary.status == "failed") return;  // which says why itself
+  if (summary.status == "failed") return;  // the failure explains it
   std::vector<std::string> names;
   for (const InvariantSummary& each : summary.invariants) {
     if (!each.max_error()) names.push_back(each.name);
   }
   if (names.empty()) return;
   all.push_back({"no_number", joined(names) + (names.size() == 1 ? " was" : " were") +
-                                  " not finite at the start or at the end: nothing is said of how far off"});
+                                  " not finite at the start or at the end, so the error is unknown"});
 }
 
 double mass_of(const ParticleFacts& particles, std::size_t i) {
@@ -223,12 +221,12 @@ double fastest(const ParticleFacts& particles, const std::vector<double>& p) {
   return most;
 }
 
-/// The two particles that are nearest to each other, in a periodic box to an image.
+/// The two nearest particles; in a periodic box periodic images are included.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   std::size_t one = 0, other = 0;
 };
-/// @return nothing of more particles than are worth the time
+/// @return nullopt for more than 3000 particles, which would take too long
 std::optional<Nearest> nearest(const ProblemEntry& problem, const ParticleFacts& particles,
                                const std::vector<double>& q) {
   const std::size_t space = particles.space;
@@ -253,8 +251,8 @@ std::optional<Nearest> nearest(const ProblemEntry& problem, const ParticleFacts&
   return found;
 }
 
-/// Whether the energy tells how near these two are: on the way to each other it changes by more than both move with.
-/// Through a smooth core they may pass.
+/// Whether these two repel each other so strongly that they cannot pass: on the way to each other the energy changes by
+/// more than their kinetic energy. Through a smooth core they may pass.
 bool has_core(const Request& request, const ProblemEntry& problem, const ParticleFacts& particles,
               const std::vector<double>& q, const std::vector<double>& p, const Nearest& two) {
   const std::size_t space = particles.space;
@@ -272,8 +270,8 @@ bool has_core(const Request& request, const ProblemEntry& problem, const Particl
 
 }  // namespace
 
-/// Two particles that pass through each other within one step leave next to nothing in the energy, and turn nowhere.
-/// What is known of a Lennard-Jones pair is the distance within which it repels; of other laws, how near two stand.
+/// Two particles that pass through each other within one step hardly change the energy, so the other checks miss them.
+/// A Lennard-Jones pair has a known distance of repulsion; for other laws the smallest distance of a pair is used.
 std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
                               const Frame& end) {
   if (!problem.particles || !takes_equal_steps(describe(request.method))) return {};
@@ -283,8 +281,8 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
   if (const double core = particles.repulsion; core != 0) {
     if (!(4 * move > core)) return {};
     return fmt::format(
-        "a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
-        "other: they may pass through each other unseen; try dt = {:.2g} or less",
+        "a particle moves {:.3g} in a step, more than a quarter of the repulsion distance {:.3g}, so two particles may "
+        "pass through each other; try dt = {:.2g} or less",
         move, core, core / (20 * speed));
   }
   for (const Frame* at : {&start, &end}) {
@@ -292,8 +290,8 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
     if (!two || !(two->distance > 0 && move > two->distance / 2)) continue;
     if (!has_core(request, problem, particles, at->q, at->p, *two)) continue;
     return fmt::format(
-        "a particle moves {:.3g} in a step, and two stand {:.3g} apart: they may pass through "
-        "each other unseen; try dt = {:.2g} or less",
+        "a particle moves {:.3g} in a step, and the smallest distance of two is {:.3g}, so they may pass through each "
+        "other; try dt = {:.2g} or less",
         move, two->distance, two->distance / (20 * speed));
   }
   return {};
@@ -301,7 +299,7 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
 
 namespace {
 
-/// Two particles of a gas that start deep within each other, where no dt helps; empty where there are none.
+/// A text about two particles of a gas that start so close together that no dt helps; empty if there are none.
 std::string overlap_at_start(const Scenario& scenario) {
   const ProblemEntry& problem = *scenario.problem;
   if (!problem.particles) return {};
@@ -311,8 +309,8 @@ std::string overlap_at_start(const Scenario& scenario) {
   const auto two = nearest(problem, particles, scenario.start_q);
   if (!two || !(two->distance < core / 2)) return {};
   return fmt::format(
-      "; particles {} and {} start {:.3g} apart, although a pair repels within {:.3g}: no dt helps, start them farther "
-      "apart, in a larger container, or with another scale",
+      "; particles {} and {} start {:.3g} apart, but a pair repels within {:.3g}, so a smaller dt does not help; start "
+      "them farther apart, in a larger container, or with another scale",
       two->one + 1, two->other + 1, two->distance, core);
 }
 
@@ -324,7 +322,7 @@ void add_passing(const Scenario& scenario, const Frame& end, std::vector<Warning
   if (!told.empty()) all.push_back({"long_step", told});
 }
 
-/// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.
+/// The product q.p of a state in Cartesian coordinates. Its sign is the sign of the radial velocity.
 double radial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
               const std::vector<double>& p) {
   Frame at;
@@ -336,19 +334,19 @@ double radial(const ProblemEntry& problem, const Texts& parameters, const std::v
   return sum;
 }
 
-/// Whether an orbit that falls into the centre has done so by then. It is half a radial period from its apocentre to
-/// the centre; a closed form may go on beyond it, outwards.
+/// Whether an orbit that falls into the centre has reached it by time t. From apocentre to centre it takes half a
+/// radial period; a closed form may continue beyond the centre, outwards.
 bool has_fallen(const Scenario& scenario, double period, double t) {
   const ProblemEntry& problem = *scenario.problem;
-  if (!problem.exact) return std::abs(t) >= period;  // on the way out it may be there no sooner
+  if (!problem.exact) return std::abs(t) >= period;  // an orbit that moves outwards first needs up to a period
   const auto exact = [&](double time) {
     return problem.exact(scenario.request.parameters, scenario.start_q, scenario.start_p, time);
   };
   const auto end = exact(t);
-  if (!end) return exact(0).has_value();  // where it is not known at the start either nobody can say
+  if (!end) return exact(0).has_value();  // unknown if there is no closed form at the start either
   const double sense = t < 0 ? -1 : 1;
   const bool goes_out = sense * radial(problem, scenario.request.parameters, scenario.start_q, scenario.start_p) > 0;
-  const double least = goes_out ? period / 2 : 0;  // no earlier
+  const double least = goes_out ? period / 2 : 0;  // not reached earlier
   const double most = goes_out ? period : period / 2;
   return std::abs(t) >= most ||
          (std::abs(t) > least && sense * radial(problem, scenario.request.parameters, end->q, end->p) > 0);
@@ -360,13 +358,13 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const
                         std::optional<double> typically_exchanged) {
   if (scenario.map) return false;
   const double scale = energy.scale_at_start;
-  // Of what is exchanged by a motion that stands still rounding is left.
+  // For a motion at rest the exchanged energy is only rounding.
   const double exchanged = typically_exchanged.value_or(energy.exchanged);
   if (exchanged > 0 && std::isfinite(exchanged)) return energy.max_error > std::max(exchanged, 0x1p-40 * scale);
   if (!(energy.max_error > scale)) return false;
-  // Of a pendulum held level T and V are nothing but rounding: there the virial at the start says what is large, and an
-  // error that is small beside the kinetic part of that at the end is none. Its other part says nothing where a motion
-  // has gone wrong: of an angle of a million turns it is a million times the energy.
+  // T and V of a pendulum that starts horizontally are only rounding. There the virial at the start gives the scale,
+  // and an error that is small compared with the kinetic part of the virial at the end is acceptable. The other part is
+  // useless for a wrong motion: for an angle of a million turns it is a million times the energy.
   const auto of = [&](const std::vector<double>& q, const std::vector<double>& p) {
     return virial(*scenario.problem, scenario.request.parameters, q, p);
   };
@@ -395,20 +393,21 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summar
 
 std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion) {
   std::vector<Warning> all;
-  if (scenario.map) return all;  // they compare steps with the flow of H
+  if (scenario.map) return all;  // the warnings compare steps with the flow of H, which a map does not have
   const Excursion& energy = motion.energy;
   const Frame& end = motion.end;
   const double scale = energy.scale_at_start;
   if (is_energy_nonsense(scenario, energy, end, motion.exchanged)) {
     all.push_back(
-        {"energy_error", fmt::format("the energy was off by {:.3g}, {}: this is "
-                                     "no motion of {}; try a smaller dt{}",
+        {"energy_error", fmt::format("the energy error, {:.3g}, {}, so this result of {} is meaningless; try a smaller "
+                                     "dt{}",
                                      energy.max_error,
                                      scale > 0 && !(energy.max_error > scale)
-                                         ? fmt::format("more than the motion exchanges between T and V, {:.3g}",
+                                         ? fmt::format("exceeds the energy that the motion exchanges between T and V, "
+                                                       "{:.3g}",
                                                        motion.exchanged.value_or(energy.exchanged))
-                                     : scale > 0 ? fmt::format("more than its scale, {:.3g}", scale)
-                                                 : std::string("and is 0 at the start"),
+                                     : scale > 0 ? fmt::format("exceeds the energy scale, {:.3g}", scale)
+                                                 : std::string("has no scale, since the energy is 0 at the start"),
                                      scenario.request.problem,
                                      describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
                              overlap_at_start(scenario)});
@@ -423,12 +422,12 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
       has_fallen(scenario, motion.orbit->radial_period, end.time)) {
-    // The phase stands still only on a line. Who falls with angular momentum is not helped by a little more of it.
+    // The apsidal angle is 0 only on a line. For a fall with angular momentum a little more of it does not help.
     const bool on_line = motion.orbit->apsidal_angle.value == 0;
     all.push_back({"falls_into_centre",
-                   std::string("the orbit ends in the centre, where H has no finite value, before the run does: "
-                               "what comes after is no motion; stop earlier, or give the start ") +
-                       (on_line ? "some angular momentum" : "so much more angular momentum that it stays out")});
+                   std::string("the orbit reaches the centre, where H is infinite, before the run ends; later results "
+                               "are meaningless; stop earlier, or give the start ") +
+                       (on_line ? "some angular momentum" : "enough angular momentum to miss the centre")});
   }
   return all;
 }

@@ -1,4 +1,4 @@
-// What is plainly nonsense about a run that came to its end all the same.
+// Warnings about a run that ended normally but whose results are meaningless or doubtful.
 #pragma once
 
 #include <optional>
@@ -12,38 +12,38 @@
 
 namespace hamflow {
 
-/// Of each kind at most one:
+/// At most one warning of each kind:
 /// - energy_error: the largest energy error is above the scale of the energy;
-/// - long_step: dt is above a tenth of the shortest period seen, or known of the orbit where none was seen;
-/// - parted_copies: the two copies of the state that tao2 and tao4 carry have parted;
-/// - falls_into_centre: the orbit ends in a singular centre before the run does;
+/// - long_step: dt is above a tenth of the shortest period seen, or of the known period of the orbit if none was seen;
+/// - parted_copies: the two copies of the state that tao2 and tao4 carry have separated;
+/// - falls_into_centre: the orbit reaches a singular centre before the run ends;
 /// - no_number: an invariant is not finite at the start or at the end.
-/// @param summary all but its warnings   @param turns null where nobody has watched
+/// @param summary complete except for its warnings   @param turns null: long steps were not looked for
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
                                  const TurnWatch* turns, std::optional<double> exchanged = {});
 
-/// A motion that ended elsewhere than its simulation stands.
+/// A motion to be judged, whose end is not the present state of the simulation.
 struct WatchedMotion {
   Excursion energy;
   Frame end;
   const OrbitSummary* orbit = nullptr;  // null: not known
-  const TurnWatch* turns = nullptr;     // null: nobody has watched
-  std::vector<WallCount> walls{};       // how often they were met
-  std::int64_t steps = 0;               // in how many steps
-  double mean_step = 0;                 // of steps of varying length; 0: not known
+  const TurnWatch* turns = nullptr;     // null: long steps were not looked for
+  std::vector<WallCount> walls{};       // number of bounces off each wall
+  std::int64_t steps = 0;               // number of steps
+  double mean_step = 0;                 // mean of steps of varying length; 0: not known
   std::optional<double> exchanged{};    // EnergyExchange::typical()
 };
-/// The same, but for no_number.
+/// The same warnings without no_number.
 std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion);
-/// What is said of steps in which particles of a gas may pass through each other unseen; empty where it is nothing.
-/// @param problem that of the request, whose method counts
+/// A warning if particles of a gas may pass through each other within a step; else empty.
+/// @param problem the problem of the request
 std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
                               const Frame& end);
 
-/// Whether an energy error is more than the energy can account for: above what the motion exchanges, so that no
-/// constant in H changes it. Where the exchange is zero or unknown, the error is compared with
+/// Whether the energy error is so large that the result is meaningless: larger than the energy that the motion
+/// exchanges, which does not depend on a constant in H. If the exchange is zero or unknown, the error is compared with
 /// the scale at the start, unless T and V vanish there by chance.   @param end the last state
-/// @param exchanged EnergyExchange::typical(), which is less than Excursion::exchanged, and decides where it is known
+/// @param exchanged EnergyExchange::typical(), used if it is known; it is less than Excursion::exchanged
 bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
                         std::optional<double> exchanged = {});
 

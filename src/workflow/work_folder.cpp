@@ -32,14 +32,13 @@ std::vector<std::string> names_of_figures() {
 
 }  // namespace
 
-// The file from which work goes on is the last to be removed: what a kill interrupts on the way is still a run, or a
-// sweep.
+// The file from which work is resumed is removed last, so that a folder is still recognised if the removal is killed.
 const FolderKind& run_folder() {
   static const FolderKind kind{.name = "run",
                                .signs = {"run.h5"},
                                .files = {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"},
                                .figures = names_of_figures(),
-                               .goes_on_from = "checkpoint.bin"};
+                               .resumes_from = "checkpoint.bin"};
   return kind;
 }
 
@@ -47,7 +46,7 @@ const FolderKind& sweep_folder() {
   static const FolderKind kind{.name = "sweep",
                                .signs = {"sweep.h5", "members.bin"},
                                .files = {"sweep.h5", "sweep.csv", "section.csv", "summary.json", "members.bin"},
-                               .goes_on_from = "members.bin"};
+                               .resumes_from = "members.bin"};
   return kind;
 }
 
@@ -63,7 +62,7 @@ const FolderKind& reversal_folder() {
   static const FolderKind kind{.name = "reversal",
                                .signs = {"reverse.h5", "reversal.bin"},
                                .files = {"reverse.h5", "reverse.json", "reversal.bin"},
-                               .goes_on_from = "reversal.bin"};
+                               .resumes_from = "reversal.bin"};
   return kind;
 }
 
@@ -74,7 +73,7 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, none));
 }
 
-/// What a command has left under the names of its kind, those included that a kill leaves half written.
+/// The files of this kind that exist in the folder, including half-written ones left by a kill.
 Names found_in(const fs::path& folder, const FolderKind& kind) {
   Names names;
   std::error_code none;
@@ -92,7 +91,7 @@ Names found_in(const fs::path& folder, const FolderKind& kind) {
   return names;
 }
 
-/// The names of what was finished, e.g. "run.h5, figures/orbit.svg"; empty if there is nothing.
+/// The names of the finished files, e.g. "run.h5, figures/orbit.svg"; empty if there are none.
 std::string left_in(const fs::path& folder, const FolderKind& kind) {
   Names found = found_in(folder, kind);
   std::erase_if(found, [](const fs::path& name) { return name.extension() == ".new"; });
@@ -102,15 +101,14 @@ std::string left_in(const fs::path& folder, const FolderKind& kind) {
 void remove_file(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(file, error))) {
-    throw FileError(file.string() +
-                    " is a folder, which hamflow leaves under no such name: it is not removed; give another " +
+    throw FileError(file.string() + " is a folder, which hamflow did not make, so it is not removed; give another " +
                     option_name("out"));
   }
   fs::remove(file, error);
   if (error) throw FileError("cannot remove " + file.string() + ": " + error.message());
 }
 
-/// The name of another kind whose folder it is; empty: none.
+/// The name of the other kind to which the folder belongs; empty: none.
 std::string other_kind_in(const fs::path& folder, const FolderKind& kind) {
   for (const FolderKind* other : {&run_folder(), &sweep_folder(), &comparison_folder(), &reversal_folder()}) {
     const bool is_other = std::any_of(other->signs.begin(), other->signs.end(),
@@ -120,7 +118,7 @@ std::string other_kind_in(const fs::path& folder, const FolderKind& kind) {
   return {};
 }
 
-/// Both as a name in its folder and as what a link leads to: either may be removed.
+/// Whether a file, or the target of a link, is one of the names in the folder.
 bool is_among(const fs::path& file, const fs::path& folder, const Names& names) {
   std::error_code none;
   const fs::path there = fs::weakly_canonical(fs::absolute(folder), none);
@@ -133,19 +131,18 @@ bool is_among(const fs::path& file, const fs::path& folder, const Names& names) 
   });
 }
 
-/// @throws Rejection when the file from which particles start is among those names
+/// @throws Rejection if the file with the initial particles is among the names
 void refuse_own_input(const Scenario& scenario, const fs::path& folder, const Names& removed) {
   const std::string key = "problem." + scenario.problem->info.file_key;
   const auto given = scenario.settings.find(key);
   if (given == scenario.settings.end()) return;
-  // A setting is kept as it would stand in a file: with quotes.
+  // A setting is stored as TOML text, with quotes.
   const toml::table read = toml::parse("file = " + given->second.text);
   const auto file = read["file"].value<std::string>();
   if (!file || !is_among(fs::path(scenario.file).parent_path() / *file, folder, removed)) return;
-  throw Rejection(
-      {{scenario.file, given->second.line, given->second.column, key,
-        "found \"" + *file + "\", which " + option_name("force") + " would remove with what is in " + folder.string() +
-            "; allowed another " + option_name("out") + ", or a copy of the file elsewhere"}});
+  throw Rejection({{scenario.file, given->second.line, given->second.column, key,
+                    "found \"" + *file + "\", which " + option_name("force") + " would remove from " + folder.string() +
+                        "; allowed another " + option_name("out") + ", or a copy of the file in another folder"}});
 }
 
 }  // namespace
@@ -155,39 +152,37 @@ WorkFolder::WorkFolder(fs::path folder, const FolderKind& kind, Existing existin
   std::error_code error;
   if (!is_there_) {
     if (existing == Existing::resume) {
-      note_ =
-          "there is no folder " + path_.string() + " to go on from: the " + kind.name + " starts from the beginning";
+      note_ = "the folder " + path_.string() + " does not exist, so the " + kind.name + " starts from the beginning";
     }
     return;
   }
-  if (!fs::is_directory(path_, error)) throw FileError(path_.string() + " exists and is no folder");
+  if (!fs::is_directory(path_, error)) throw FileError(path_.string() + " exists and is not a folder");
   const std::string other = other_kind_in(path_, kind);
   if (existing == Existing::refuse) {
     if (!other.empty()) {
-      throw FileError("the folder " + path_.string() + " exists, with a " + other + " in it; give another " +
+      throw FileError("the folder " + path_.string() + " exists and contains a " + other + "; give another " +
                       option_name("out"));
     }
     throw FileError(
         "the folder " + path_.string() + " exists; give " +
-        (kind.goes_on_from.empty() ? "" : option_name("resume") + " to go on with the " + kind.name + " in it, ") +
+        (kind.resumes_from.empty() ? "" : option_name("resume") + " to continue the " + kind.name + " in it, ") +
         option_name("force") + " to replace it, or another " + option_name("out"));
   }
   lock();
-  goes_on_ = existing == Existing::resume && is_there(path_ / kind.goes_on_from);
-  if (goes_on_) return;
+  resumes_ = existing == Existing::resume && is_there(path_ / kind.resumes_from);
+  if (resumes_) return;
   if (!other.empty()) {
     throw FileError(
         "found a " + other + " in " + path_.string() +
-        (existing == Existing::replace ? ", which is not replaced" : ", from which no " + kind.name + " goes on") +
+        (existing == Existing::replace ? ", which is not replaced" : ", which cannot be resumed as a " + kind.name) +
         "; allowed a folder of a " + kind.name + ", or another " + option_name("out"));
   }
   if (existing == Existing::replace) return;
   if (const std::string left = left_in(path_, kind); !left.empty()) {
-    throw FileError("there is no " + kind.goes_on_from + " in " + path_.string() + " to go on from, but " + left +
-                    "; give another " + option_name("out") + ", or " + option_name("force") +
-                    " to replace what is there");
+    throw FileError("cannot resume: " + path_.string() + " contains " + left + ", but no " + kind.resumes_from +
+                    "; give another " + option_name("out") + ", or " + option_name("force") + " to replace the files");
   }
-  note_ = "there is no " + kind.goes_on_from + " in " + path_.string() + " to go on from: the " + kind.name +
+  note_ = "there is no " + kind.resumes_from + " in " + path_.string() + ", so the " + kind.name +
           " starts from the beginning";
 }
 
@@ -198,13 +193,13 @@ WorkFolder::WorkFolder(WorkFolder&& other) noexcept
       kind_(other.kind_),
       existing_(other.existing_),
       is_there_(other.is_there_),
-      goes_on_(other.goes_on_),
+      resumes_(other.resumes_),
       note_(std::move(other.note_)),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 void WorkFolder::lock() {
   descriptor_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  // Where files cannot be locked (some network folders) nobody is kept out.
+  // Some network folders cannot be locked. There other processes are not kept out.
   if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     unlock();
     throw FileError("another process is writing into the folder " + path_.string());
@@ -217,7 +212,7 @@ void WorkFolder::unlock() {
 }
 
 void WorkFolder::prepare() {
-  if (goes_on_) return;
+  if (resumes_) return;
   std::error_code error;
   if (!is_there_) {
     const bool made = fs::create_directories(path_, error);
@@ -237,7 +232,7 @@ void WorkFolder::prepare() {
 }
 
 void WorkFolder::prepare(const Scenario& scenario) {
-  if (is_there_ && !goes_on_) refuse_own_input(scenario, path_, found_in(path_, *kind_));
+  if (is_there_ && !resumes_) refuse_own_input(scenario, path_, found_in(path_, *kind_));
   prepare();
 }
 

@@ -6,7 +6,7 @@ import shutil
 
 from command import CommandCase
 
-GOES_ON = "out of memory; what was computed is in x, and the same command with --resume goes on"
+GOES_ON = "out of memory; the results so far are in x; to continue, give the same command with --resume"
 
 
 class MemoryCase(CommandCase):

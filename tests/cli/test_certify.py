@@ -68,7 +68,7 @@ class Certify(CommandCase):
                        "Total wall time: 0:00:01\n")
             done = self.hamflow("certify", "log.lammps", "--time", "Step", "--energy", "TotEng")
             self.assertIn("bounded", done.stdout)
-            self.assertIn("note: log.lammps has 2 tables; the last one is read, 3000 rows", done.stderr)
+            self.assertIn("note: log.lammps has 2 tables; only the last one is read (3000 rows)", done.stderr)
             self.assertEqual(self.certified("log.lammps", "Step", "3")["samples"], 3000)
         # A run that goes on has no "Loop time" yet; a last table of one row is that of `run 0`.
         self.write("grows.log", "LAMMPS (2Sep21)\n" + thermo(steps, LINEAR).split("Loop")[0])
@@ -79,7 +79,7 @@ class Certify(CommandCase):
             self.write("killed.log", cut)
             done = self.hamflow("certify", "killed.log", "--time", "Step", "--energy", "TotEng")
             self.assertIn("linear", done.stdout)
-            self.assertIn("note: killed.log:3003 is cut: the last line has no end, and is left out", done.stderr)
+            self.assertIn("note: killed.log:3003: the last line has no line end, so it may be incomplete; it is left out", done.stderr)
             self.assertEqual(self.certified("killed.log", "Step", "TotEng")["samples"], 3000)
         self.write("zero.log", "LAMMPS (2Sep21)\n" + thermo(steps, LINEAR) + thermo([300_000], [1.0]))
         self.assertEqual(self.certified("zero.log", "Step", "TotEng")["samples"], 3000)
@@ -136,7 +136,7 @@ class Certify(CommandCase):
                 ("t E\n1 2\n2 1e999\n", "found '1e999'"), ("t E\n1 2\n2 0x1\n", "found '0x1'"),
                 ("t,E\n1,2\n2,3,4\n", "e.csv:3:5: error: found 3 columns; allowed 2, as in line 1"),
                 ("t E\n1 2\n2\n", "found 1 column; allowed 2, as in line 1"),
-                ("t,E\n1,2\n3,3\n\n2,3\n", "e.csv:5:1: error: found the time 2 after 3; allowed times that rise strictly"),
+                ("t,E\n1,2\n3,3\n\n2,3\n", "e.csv:5:1: error: found the time 2 after 3; allowed strictly increasing times"),
                 ("t,E\n1,2\n", "1 sample")]:
             self.write("e.csv", text)
             self.assertIn(words, self.refused("e.csv", "t", "E"), text)

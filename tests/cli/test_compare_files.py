@@ -52,12 +52,12 @@ class CompareFiles(CompareCase):
     def test_notes_of_several_methods(self):
         done = self.hamflow("compare", "kepler.toml", "--methods", "cg(2,6),cg(2,6,tolerance=1e-3),cg(2,7,tolerance=1e-3)",
                             "--dt", "0.2")
-        self.assertRegex(done.stderr, r"method.quadrature is not used by .*: their names say it\n")
+        self.assertRegex(done.stderr, r"method.quadrature is not used by .*: their names contain it\n")
         sets = ("--set", "method.tolerance=1e-5", "--set", "run.steps=4")
         done = self.hamflow("compare", "kepler.toml", "--methods", "dop853,taylor", "--dt", "0.1", *sets)
-        self.assertIn("not used by dop853, taylor: their rows have the default, unless their names say one", done.stderr)
+        self.assertIn("not used by dop853, taylor: their rows have the default, unless their names contain it", done.stderr)
         done = self.hamflow("compare", "kepler.toml", "--methods", "dop853", "--dt", "0.1,0.2", *sets)
-        self.assertIn("not used by dop853: its rows differ in it, unless its name says one", done.stderr)
+        self.assertIn("not used by dop853: it differs between its rows, unless its name contains it", done.stderr)
 
     def test_a_run_of_no_time_is_told_where_it_stands(self):
         self.write("still.toml", (self.folder / "henon.toml").read_text().replace("steps=100", "steps=0"))
@@ -156,7 +156,7 @@ class CompareFiles(CompareCase):
         before = self.compare("fall.toml", "--methods", "stv4", "--dt", "0.01")  # the fall takes pi/sqrt(8)
         self.assertLess(before["rows"][0]["error"], 1e-4)
         done = self.hamflow("compare", "fall.toml", "--methods", "stv4", "--set", "run.steps=300", status=1)
-        self.assertRegex(done.stderr, r"no reference: the motion cannot be followed beyond t = (0\.9|1)")
+        self.assertRegex(done.stderr, r"no reference solution: the motion cannot be integrated beyond t = (0\.9|1)")
 
     def test_what_walls_refuse_in_a_run_they_refuse_here(self):
         self.write("wall.toml", "[problem]\nname = 'harmonic'\ninitial = { q = [0], p = [1] }\n"
@@ -171,7 +171,7 @@ class CompareFiles(CompareCase):
 
     def test_a_step_that_goes_the_other_way_is_noted(self):
         told = self.hamflow("compare", "kepler.toml", "--methods", "verlet", "--dt", "-0.1").stderr
-        self.assertIn("note: dt = -0.1 goes away from t_end = 40; dt = 0.1 is taken", told)
+        self.assertIn("note: dt = -0.1 leads away from t_end = 40; dt = 0.1 is used", told)
         self.assertNotIn("goes away", self.hamflow("compare", "kepler.toml", "--methods", "verlet", "--dt", "-0.1", "--set",
                                                    "run.dt=-0.1").stderr)
 

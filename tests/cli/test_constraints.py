@@ -153,7 +153,7 @@ steps = 100
 
     def test_refusals(self):
         off = self.pendulum('coordinates = "cartesian"\ninitial = { q = [0.6, -0.81], p = [0.81, 0.6] }')
-        self.assertIn("found a start off the constraints, |g(q)| = 0.016", self.refused(off))
+        self.assertIn("found a start that violates the constraints, |g(q)| = 0.016", self.refused(off))
         across = self.pendulum('coordinates = "cartesian"\ninitial = { q = [0.6, -0.8], p = [0.8, 0.61] }')
         self.assertIn("leaves the constraints, |g'(q) M^-1 p| = 0.016", self.refused(across))
         near = 'coordinates = "cartesian"\ninitial = { q = [0.6, "-0.8 + 5e-14"], p = [0.8, 0.6] }'
@@ -205,7 +205,7 @@ steps = 10
 
     def test_the_constraint_that_fails_is_named(self):
         text = self.refused(self.constrained('["x - 1", "x^2 + y^2 - 4"]'))
-        self.assertIn("off the constraints, |g(q)| = 3; allowed at most 1e-12: constraints[1] = x^2 + y^2 - 4", text)
+        self.assertIn("violates the constraints, |g(q)| = 3; allowed at most 1e-12: constraints[1] = x^2 + y^2 - 4", text)
 
     def test_no_constraints_are_an_empty_list(self):
         for form in ("", 'constraint_form = "manifold"'):
@@ -281,7 +281,7 @@ steps = 10
                                  "--json").stdout
             for a, b in zip(json.loads(again)["q"], [math.sin(0.7), -math.cos(0.7)]):
                 self.assertAlmostEqual(a, b, delta=16 * EPSILON)
-        self.assertIn("dimension = 3, constraint_form = manifold, which stands in the coordinates x, y, z alone", self.hamflow(
+        self.assertIn("dimension = 3, constraint_form = manifold, which has only the coordinates x, y, z", self.hamflow(
             "convert", self.pendulum(SPACE), "--to", "generalised", status=2).stderr)
 
     def test_conversion_of_runs(self):
@@ -346,9 +346,9 @@ steps = 10
         self.assertAlmostEqual(other["final"]["q"][3], one["final"]["q"][1], delta=1e-9)
         for rule, method in (("mirror", "rattle"), ("mirror", "rattle4")):
             text = self.refused(self.write("tube.toml", T_TUBE.format(method=method, problem=rails + f'wall_rule = "{rule}"')))
-            self.assertIn("with constraints, between which no drift is free", text)
+            self.assertIn("with constraints, where drifts are not free", text)
         walls = PLANE + '\nwalls = [{ coordinate = "x", max = 0.9 }]'
-        self.assertIn("found walls beside constraints", self.refused(self.pendulum(walls)))
+        self.assertIn("found walls together with constraints", self.refused(self.pendulum(walls)))
 
     def test_lists_and_templates(self):
         text = self.hamflow("new", "pendulum").stdout

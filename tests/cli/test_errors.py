@@ -66,7 +66,7 @@ record_every = true
 
     def test_geometry_says_which_inequality_fails_and_by_how_much(self):
         text = self.complaint("problem.orbit.r_per=4")
-        self.assertIn("allowed r_per <= r_aph, but 4 > 3: fails by 1", text)
+        self.assertIn("allowed r_per <= r_aph, but 4 > 3, exceeded by 1", text)
         text = self.complaint('problem.orbit={kind="hyperbola",r_per=2,angular_momentum=1}')
         self.assertIn("sqrt(2 mass k r_per) < angular_momentum", text)
         self.assertIn("0 < k", self.complaint("problem.k=-1"))
@@ -122,7 +122,7 @@ record_every = true
                                              "run.lattice={position='2^-70'}"))
         self.assertIn("unknown key", self.complaint("method={name='stv4',quadrature=3}"))
         self.assertIn('or "auto"', self.complaint("method.quadrature=0"))
-        self.assertIn("run.kernel: found a key that was removed; delete it", self.complaint("run.kernel=fast"))
+        self.assertIn("run.kernel: this key no longer exists; delete this key", self.complaint("run.kernel=fast"))
         self.assertIn("degree of freedom", self.complaint(
             "problem={name='pendulum',initial={q=[1],p=[0]}}", "output.figures=['orbit']"))
 
@@ -268,7 +268,7 @@ record_every = true
         self.assertIn("did you mean halve?", told("method.on_divergence=half"))
 
     def test_what_no_thread_means_is_told(self):
-        self.assertRegex(self.hamflow("sweep", "--help").stdout, r"--threads N +how many, 0: all cores")
+        self.assertRegex(self.hamflow("sweep", "--help").stdout, r"--threads N +number of threads, 0: all cores")
 
     def test_unknown_names_are_answered_by_those_that_are_known(self):
         for words, allowed in ((["verify", "stv4", "--problem", "foo"], "allowed double-pendulum, duffing"),

@@ -182,7 +182,7 @@ section = { coordinate = "p_x", direction = 0 }
             ("{ theta = 'atan2(q2)' }", "output.observables.theta: found"),
             ("{ theta = 'q4' }", "did you mean"),
             ("{ theta = 1 }", "allowed a non-empty text"),
-            ("{ q1 = 'q2' }", "found the name q1, which a column of every run has"),
+            ("{ q1 = 'q2' }", "found the name q1, which every run uses for a column"),
             ("{ 'a/b' = 'q2' }", "allowed letters, digits and _"),
         ):
             text = self.hamflow("run", "b.toml", "--set", f"output.observables={value}", "--out", "none", status=2).stderr
@@ -190,7 +190,7 @@ section = { coordinate = "p_x", direction = 0 }
         # trajectory.csv calls its columns so, whatever the names of the coordinates are.
         for name in ("q1", "p2"):
             text = self.hamflow("run", "kepler.toml", "--set", f"output.observables={{ {name} = 'x' }}", "--out", "none", status=2)
-            self.assertIn(f"found the name {name}, which a column of every run has", text.stderr)
+            self.assertIn(f"found the name {name}, which every run uses for a column", text.stderr)
 
     def test_a_varied_value_that_is_a_long_sum(self):
         for formula, status in (("sum(i,1,1000,i/1000*problem.lambda)", 0), ("sum(i,1,60000,i*problem.lambda)", 2),

@@ -139,7 +139,7 @@ class Commands(FormulaCase):
 parameters = { a = 0.1, w = 0.7 }\ninitial = { q = [0.2], p = [0] }\n[method]\nname = "stv4"\n[run]\ndt = 0.05\nsteps = 20\n""")
         refused = self.hamflow("run", "d.toml", "--out", "none", "--set", "problem.parameters.aa=3", status=2).stderr
         self.assertIn("problem.parameters.aa", refused)
-        self.assertIn("stands in no formula; did you mean a?", refused)
+        self.assertIn("no formula uses; did you mean a?", refused)
         self.hamflow("sweep", "d.toml", "--out", "none", "--vary", "problem.parameters.z=0.5,0.7", status=2)
         self.assertTrue(refused.startswith("--set: error: problem.parameters.aa: found"), refused)
 

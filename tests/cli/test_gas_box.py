@@ -54,7 +54,7 @@ class GasBox(CommandCase):
         warned = self.summary("box.toml", "--set", "run.dt=0.01", status=1)["warnings"]
         told = [w["message"] for w in warned if w["kind"] == "energy_error"]
         self.assertEqual(len(told), 1)
-        self.assertIn("particles 1 and 2 start 1.5 apart, although a pair repels within 3.33", told[0])
+        self.assertIn("particles 1 and 2 start 1.5 apart, but a pair repels within 3.33", told[0])
 
     def test_nearest_images_are_the_same_on_every_road(self):
         self.write("six.toml", SIX)

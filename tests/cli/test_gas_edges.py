@@ -29,7 +29,7 @@ dt = 0.0005
 steps = 2
 """
 INITIAL = "initial = { q = [0, 0, 0.5, 0], p = [0, 0, 0, 0] }"
-NOT_USED = "not used: initial says where the particles begin"
+NOT_USED = "not used, because initial gives the start of the particles"
 
 
 class Edges(CommandCase):
@@ -42,9 +42,9 @@ class Edges(CommandCase):
         """Edges are rounded as the start is, and told; one that would vanish leaves no box, and the cut-off is checked again."""
         for unit, moved in (("2^-3", "0.0499"), ("2^-40", "1.8")):
             told = self.told(PERIODIC % 3, "run.arithmetic=lattice", f"run.lattice.position={unit}", status=0)
-            self.assertIn("the edges of the periodic box are moved by up to " + moved, told)
+            self.assertIn("the edges of the periodic box are rounded to whole units of the lattice, by up to " + moved, told)
         told = self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=8")
-        self.assertIn("run.lattice.position: found a unit of 8 for a periodic box whose edge 2.7 is 0.3375 units, of which nothing would be left; allowed units", told)
+        self.assertIn("run.lattice.position: found a unit of 8 for a periodic box whose edge 2.7 is 0.3375 units and would be rounded to 0; allowed units", told)
         self.assertIn("too short for problem.cutoff", self.told((PERIODIC % 3).replace("1.3", "2"),
                                                                "run.arithmetic=lattice", "run.lattice.position=2^-1"))
         self.assertNotIn("note", self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=2^-53", status=0))
@@ -88,7 +88,7 @@ class Edges(CommandCase):
     def test_a_key_that_some_members_do_not_use(self):
         self.write("gas.toml", GAS % "seed = 3")
         told = self.hamflow("sweep", "gas.toml", "--vary", 'problem.start="lattice","corner"', "--out", "none").stderr
-        self.assertIn('problem.seed is not used: no momenta are drawn with start = "corner"', told)
+        self.assertIn('problem.seed is not used, because start = "corner" has no random momenta', told)
 
     def test_keys_of_other_tables(self):
         for keys, said in (
@@ -146,7 +146,7 @@ class Edges(CommandCase):
         """As in run, where the states are, not what they are."""
         text = (GAS % 'container = { kind = "none" }\ncutoff = 1.2\ndimension = 3').replace("side = 4", "side = 15")
         self.write("many.toml", text.replace("steps = 20", "steps = 1"))
-        for out, start, end, line in (([], None, None, "kept nowhere"), (["--out", "kept"], "/start", "/end", "/end of reverse.h5")):
+        for out, start, end, line in (([], None, None, "not saved"), (["--out", "kept"], "/start", "/end", "/end in reverse.h5")):
             s = json.loads(self.hamflow("reverse", "many.toml", "--json", *out).stdout)
             self.assertEqual((s["start"], s["returned"]), ({"dataset": start}, {"dataset": end}))
             self.assertRegex(self.hamflow("reverse", "many.toml", *out, *(["--force"] if out else [])).stdout, f"returned +{line}")
@@ -158,7 +158,7 @@ class Edges(CommandCase):
         self.write("gas.toml", GAS % "cutoff = 1.4")
         s = json.loads(self.hamflow("reverse", "gas.toml", "--json").stdout)
         self.assertIsNone(s["pair_evaluations"])
-        self.assertIn("with a cut-off only pairs within it are computed", s["pair_evaluations_note"])
+        self.assertIn("with a cut-off the number of pairs changes", s["pair_evaluations_note"])
         self.write("gas.toml", GAS % "")
         self.assertNotIn("pair_evaluations_note", json.loads(self.hamflow("reverse", "gas.toml", "--json").stdout))
 

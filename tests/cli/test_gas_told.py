@@ -105,7 +105,7 @@ class Told(CommandCase):
                 shutil.copy(self.folder / "a/f.toml", self.folder / "b/f.toml")  # where no p.csv is
                 told = self.hamflow("run", "b/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=200", "--set", "run.record_every=1",
                                     *[word for word in part if word != "--quiet"])
-                self.assertIn("note: problem.file: found no file b/p.csv that can be read; the run goes on from the start that part.run/run.h5 keeps",
+                self.assertIn("note: problem.file: cannot read the file b/p.csv; the start is read from part.run/run.h5",
                               told.stderr)
                 (self.folder / "a/p.csv").unlink()
                 self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=300", "--set", "run.record_every=1", *part)
@@ -113,11 +113,11 @@ class Told(CommandCase):
                 # The file is back, with another start: that is told.
                 self.write("a/p.csv", start.replace("0.1", "0.2"))
                 refused = self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=400", "--set", "run.record_every=1", *part, status=2)
-                self.assertIn("a/f.toml:4:8: error: problem.file: contents: found those with the hash", refused.stderr)
+                self.assertIn("a/f.toml:4:8: error: problem.file: contents: found contents with hash", refused.stderr)
         # A run that does not go on needs its file, and so does one that keeps its start in fewer digits than it had.
         (self.folder / "a/p.csv").unlink()
-        self.assertIn("found no file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "new.run", status=2).stderr)
-        self.assertIn("found no file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.arithmetic=quad",
+        self.assertIn("cannot read the file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "new.run", status=2).stderr)
+        self.assertIn("cannot read the file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.arithmetic=quad",
                                                             status=2).stderr)
 
     def test_momenta_as_show_says(self):
@@ -151,7 +151,7 @@ class Told(CommandCase):
         self.write("gas.toml", BOX)
         self.hamflow("run", "gas.toml", "--out", "g.run", "--quiet")
         self.write("on.toml", FROM_FILE.replace("p.csv", "g.run/run.h5").replace("masses = [2, 3, 1]\n", ""))
-        note = "note: problem.scale is not given: it is 1 here, whatever it was in the run of g.run/run.h5"
+        note = "note: problem.scale is not given, so it is 1; if the run of g.run/run.h5"
         self.assertIn(note, self.told("on.toml", status=0))
         self.assertNotIn("note", self.told("on.toml", "problem.scale=1", status=0))
 
@@ -165,7 +165,7 @@ class Told(CommandCase):
     def test_particles_that_may_pass_in_a_sweep_and_a_comparison(self):
         """As `run` says it, once: not for each member."""
         self.write("two.toml", TWO)
-        passing = "a particle moves 1.2 in a step, more than a quarter of 1, within which two repel each other: they may pass"
+        passing = "a particle moves 1.2 in a step, more than a quarter of the repulsion distance 1, so two particles may"
         self.assertIn(passing, self.told("two.toml", "run.dt=0.12", status=0))
         of_sweep = ["sweep", "two.toml", "--out", "none", "--vary"]
         told = self.hamflow(*of_sweep, "run.dt=0.001,0.12,0.13").stderr
@@ -255,11 +255,11 @@ initial = { q = [1, 0], p = [0, 1] }
         for arithmetic in ("lattice", "double"):
             s = json.loads(self.hamflow(*back, "--set", f"run.arithmetic={arithmetic}", status=1).stdout)
             self.assertEqual(s["status"], "failed")
-            self.assertEqual(s["note"], "the reversal has not come to its end: nothing is said of what it returns")
+            self.assertEqual(s["note"], "the reversal did not finish, so there is no result")
 
     def test_a_reversal_draws_nothing_by_itself(self):
         self.write("gas.toml", GAS % "")
-        figures = "output.figures is not used: a reversal draws nothing; hamflow plot draws what --out DIR keeps"
+        figures = "output.figures is not used: a reversal draws no figures; use --out DIR and hamflow plot"
         self.assertIn(figures, self.hamflow("reverse", "gas.toml", "--set", "output.figures=['particles']").stderr)
         self.assertNotIn("not used", self.hamflow("reverse", "gas.toml").stderr)
 
@@ -273,7 +273,7 @@ initial = { q = [1, 0], p = [0, 1] }
         self.write("start.csv", "x,y,z,p_x,p_y,p_z\n0,0,0,0,0,0\n1,0,0,0,0,1\n")
         text = GAS.replace("particles_per_side = 4", "") % 'start = "file"\nfile = "start.csv"\nscale = 1'
         self.write("gas.toml", text)
-        self.assertIn("z and p_z with problem.dimension = 3", self.told("gas.toml"))
+        self.assertIn("z and p_z need problem.dimension = 3", self.told("gas.toml"))
 
     def test_a_wrong_number_of_particles_is_one_fault(self):
         self.write("gas.toml", GAS % 'scale = "per-side"')
@@ -283,7 +283,7 @@ initial = { q = [1, 0], p = [0, 1] }
     def test_a_gas_has_no_coordinates_to_convert_to(self):
         self.write("gas.toml", GAS % "")
         told = self.hamflow("convert", "gas.toml", "--to", "cartesian", "-o", "c.toml", status=2).stderr
-        self.assertIn("gas stands in one set of coordinates, with nothing to convert to; allowed: central-force", told)
+        self.assertIn("gas has only one set of coordinates, so it cannot be converted; allowed: central-force", told)
 
 
 if __name__ == "__main__":

@@ -251,7 +251,7 @@ lyapunov = true
         self.assertEqual(failed["eigenvalues"], whole["eigenvalues"])
 
     def test_points_are_counted_in_the_text(self):
-        for steps, words in ((1, "0 points\n"), (40, "1 point, at most ")):
+        for steps, words in ((1, "0 points\n"), (40, "1 point, residual at most ")):
             done = self.hamflow("run", "chaos.toml", "--out", "none", "--set", "run.section={coordinate='q1'}", "--set",
                                 f"run.steps={steps}", "--set", "problem.initial.q[0]=-0.1")
             self.assertIn("section             " + words, done.stdout)

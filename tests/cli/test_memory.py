@@ -37,7 +37,7 @@ class Memory(MemoryCase):
     def goes_on(self, command, *arguments):
         """A few steps behind those that were kept, which were some, with the bits of an undisturbed run."""
         refused = self.hamflow(command, "gas.toml", "--out", "x", "--resume", "--set", "run.steps=0", *arguments, status=2)
-        kept = int(re.search("allowed with --resume at least the ([0-9]+) that were taken", refused.stderr)[1])
+        kept = int(re.search("allowed with --resume at least ([0-9]+), which were taken already", refused.stderr)[1])
         self.assertGreater(kept, 0)
         steps = ("--set", f"run.steps={min(kept + 2, STEPS)}")
         found, wanted = (json.loads(self.hamflow(command, "gas.toml", "--out", out, *more, *steps, *arguments, "--json").stdout)

@@ -43,7 +43,7 @@ class Options(CommandCase):
         self.assertEqual(self.final('method={name="cg(1,3)"}'), self.final('method={name="cg",degree=1,quadrature=3}'))
         self.assertEqual(self.final('method={name="taylor(order=12)"}')[1], "taylor(order=12)")
         text = self.refused('method={name="cg(1,5)",quadrature=3}')
-        self.assertIn("method.quadrature: found it beside the same option in method.name; allowed once", text)
+        self.assertIn("method.quadrature: given here and in method.name; allowed once", text)
         self.assertIn("closing parenthesis", self.refused('method={name="cg(1,5"}'))
         self.assertIn("quadrature: found '65'; allowed a whole number from 1 to 64", self.refused('method={name="cg(1,65)"}'))
         self.assertIn("did you mean order?", self.refused('method={name="taylor(oder=3)"}'))
@@ -87,7 +87,7 @@ class Options(CommandCase):
             self.assertEqual({key: here[key] for key in ("t", "q", "p")}, final)
             self.assertIn("tol: found '2'; allowed a number between 0 and 1", self.shell(f"method {method}\ntol 2\n", status=2))
         text = self.shell("method stv4\ntol 1e-3\n", status=2)
-        self.assertIn("stv4, which has no tolerance; allowed with avf, cg, discrete-gradient, dop853, eg, gauss, implicit-midpoint, itoh-abe, "
+        self.assertIn("stv4 has no tolerance; allowed with avf, cg, discrete-gradient, dop853, eg, gauss, implicit-midpoint, itoh-abe, "
                       "lobatto-3a-3b, rattle, taylor\n", text)
 
     def test_saved_sessions_can_be_read(self):
@@ -124,12 +124,12 @@ class Options(CommandCase):
 
     def test_one_start(self):
         both = "problem.initial={q=[1,0],p=[0,1.3]}", "problem.orbit={kind='circle',r0=1}"
-        self.assertIn("problem.initial: found it beside orbit; allowed one of them", self.refused(*both))
+        self.assertIn("problem.initial: found together with orbit; allowed one of them", self.refused(*both))
         self.write("duffing.toml", '[problem]\nname="duffing"\ncase=1\nr0=1\nk=1\ninitial={q=[1],p=[0]}\n[method]\n'
                    'name="verlet"\n[run]\ndt=0.1\nsteps=1\n')
-        self.assertIn("beside case; allowed one of them", self.hamflow("run", "duffing.toml", status=2).stderr)
+        self.assertIn("together with case; allowed one of them", self.hamflow("run", "duffing.toml", status=2).stderr)
         text = self.hamflow("run", f"{EXAMPLES}/two_bodies.toml", "--set", "problem.initial={q=[1,0],p=[0,1]}", status=2).stderr
-        self.assertIn("found initial beside bodies; allowed one of them", text)
+        self.assertIn("found initial together with bodies; allowed one of them", text)
 
     # ---- numbers ----
 

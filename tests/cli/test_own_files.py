@@ -88,7 +88,7 @@ class OwnFiles(CommandCase):
             begins = ("g.toml", "--set", "problem.start=file", "--set", f"problem.file={file}", "--quiet")
             for out in ("f", "link"):
                 said = self.hamflow("run", *begins, "--out", out, "--force", status=2).stderr
-                self.assertIn(f'problem.file: found "{file}", which --force would remove with what is in {out}', said)
+                self.assertIn(f'problem.file: found "{file}", which --force would remove from {out}', said)
                 self.assertEqual(self.contents("f"), before)
             for _ in range(2):  # another folder is replaced
                 self.hamflow("run", *begins, "--out", "other", "--force")

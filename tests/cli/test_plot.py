@@ -188,7 +188,7 @@ steps = 2
         self.assertIn("central-force, kahan-li8, dt = 0.005, quad", labels)
 
     def test_what_is_no_run(self):
-        for name, said in {"nowhere.run": "there is no such file", "kepler.toml": "no run of hamflow"}.items():
+        for name, said in {"nowhere.run": "does not exist", "kepler.toml": "no run of hamflow"}.items():
             text = self.hamflow("plot", name, "--kind", "orbit", "-o", "x.svg", status=3).stderr
             self.assertIn(f"{name} cannot be read", text)
             self.assertIn(said, text)
@@ -217,14 +217,14 @@ steps = 2
             return done.stderr
 
         dt = ("--vary", "run.dt=0.1,0.2")
-        self.assertIn("there is no folder nodir", refused(3, *dt, "--figure", "nodir/s.svg"))
+        self.assertIn("the folder nodir does not exist", refused(3, *dt, "--figure", "nodir/s.svg"))
         self.assertIn("--colour: error: found final/t without --figure", refused(2, *dt, "--colour", "final/t"))
         refused(1, "--vary", "run.dt=1e300,1e301", "--figure", "s.svg")  # no member has an end to draw
         for arguments, key in ((("--methods", "stv5"), "--methods"), (("--methods", "stv4", "--dt", "x"), "--dt"),
                                (("--methods", "stv4", "--figure", "a.gif"), "--figure")):
             done = self.hamflow("compare", "kepler.toml", *arguments, status=2)
             self.assertTrue(done.stderr.startswith(f"{key}: error: found "), done.stderr)
-        self.assertIn("no folder nodir", self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--figure",
+        self.assertIn("the folder nodir does not exist", self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--figure",
                                                       "nodir/a.svg", status=3).stderr)
 
     def test_a_start_alone_has_no_exact_curve(self):
@@ -240,7 +240,7 @@ steps = 2
     def test_a_section_without_points_costs_no_run_its_other_figures(self):
         done = self.hamflow("run", "kepler.toml", "--set", "run.steps=5", "--set", "run.section={coordinate='x'}",
                             "--set", "output.figures=['section', 'orbit']", "--out", "few.run")
-        self.assertIn("note: a figure is not drawn: found \"section\", but the section has no points", done.stderr)
+        self.assertIn("note: the figure section was not drawn: found \"section\", but the section has no points", done.stderr)
         self.assertTrue((self.folder / "few.run" / "figures" / "orbit.svg").exists())
 
     def test_a_section_says_which_it_is(self):
@@ -335,8 +335,8 @@ steps = 2
         self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.1,0.05", "--out", "many", "--quiet")
         self.hamflow("reverse", "kepler.toml", "--out", "r.rev", "--quiet")
         (self.folder / "r.rev" / "reverse.h5").unlink()
-        for name, told in {"c.cmp": "the folder of a comparison, whose figures are c.cmp/figures/work-precision.svg",
-                           "c.run": "a run without the format h5",
+        for name, told in {"c.cmp": "the folder of a comparison; its figures are c.cmp/figures/work-precision.svg",
+                           "c.run": "a run without run.h5",
                            "many/sweep.h5": "it is the table of a sweep: hamflow sweep --figure draws it",
                            "r.rev": "hamflow reverse FILE --out r.rev --resume"}.items():
             self.assertIn(told, self.hamflow("plot", name, "-o", "x.svg", status=3).stderr)

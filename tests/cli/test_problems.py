@@ -75,7 +75,7 @@ class Problems(CommandCase):
         self.assertIn("apsidal angle 0.304377, falls into the centre", text)
 
     def test_what_keeps_a_fall_out_of_the_centre(self):
-        for momentum, words in ((0, "some angular momentum"), (0.5, "so much more angular momentum")):
+        for momentum, words in ((0, "some angular momentum"), (0.5, "enough angular momentum to miss the centre")):
             s = self.field('potential="power"\na=-1\nn=-4', [0.5, 0], [0, momentum], "--set", "method={name='verlet'}",
                            steps=150)
             (message,) = [w["message"] for w in s["warnings"] if w["kind"] == "falls_into_centre"]
@@ -240,7 +240,7 @@ class Problems(CommandCase):
             (cf + 'potential="power"\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.a", "missing")),
             (cf + 'potential="power"\na=1\nn=-1\norbit={energy=1,angular_momentum=1}', ("problem.n", "but -1")),
             (cf + 'potential="power"\na=[1,2]\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.n", "as a has, 2")),
-            (cf + 'potential="kepler"\norbit={energy=-1,angular_momentum=1}', ("problem.orbit.energy", "fails by 0.5")),
+            (cf + 'potential="kepler"\norbit={energy=-1,angular_momentum=1}', ("problem.orbit.energy", "exceeded by 0.5")),
             (cf + 'potential="kepler"\norbit={energy=1}', ("kind", "angular_momentum")),
             (cf + 'potential="kepler"\ncoordinates="plar"\norbit={kind="circle",r0=1}', ("did you mean polar",)),
             (cf + 'potential="kepler"\nbodies=[{mass=1,position=[0,0,0],velocity=[0,0,0]}]', ("bodies", "2 tables")),
@@ -256,7 +256,7 @@ class Problems(CommandCase):
             ),
             ('name="duffing"\nalpha=1\nk=1\ninitial={q=[1],p=[0]}', ("alpha with beta",)),
             ('name="duffing"\ncase=4\nr0=1', ("case", "from 1 to 3")),
-            ('name="duffing"\ncase=3\nk=2\nr0=4\nspeed=40', ("problem.speed", "fails by")),
+            ('name="duffing"\ncase=3\nk=2\nr0=4\nspeed=40', ("problem.speed", "exceeded by")),
             ('name="duffing"\ncase=1\nk=2\nlambda=3\nr0=4\nspeed=4', ("problem.lambda", "follows")),
             ('name="duffing"\ncase=2\nk=2\nr0=4\nspeed=4', ("problem.speed",)),
             ('name="duffing"\ncase=1\nk=1\nr0=0\nspeed=1', ("problem.r0", "0 < r0")),
@@ -276,7 +276,7 @@ class Problems(CommandCase):
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,0,0],p=[0,0,0,0]}', ("bodies 1 and 2 at one point",)),
             ('name="n-body"\nmasses=[1,0]\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "positive")),
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1],p=[0,0,0]}', ("4 numbers in the plane, 6 in space",)),
-            ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1,0],p=[0,0,0,0,0,0]}', ("as many as q has",)),
+            ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1,0],p=[0,0,0,0,0,0]}', ("the number of entries of q",)),
             ('name="n-body"\nmasses=[]\ninitial={q=[],p=[]}', ("problem.masses",)),
             ('name="n-body"\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "missing")),
             ('name="fput"\nn=2.5\ninitial={q=[1,2],p=[0,0]}', ("problem.n", "whole")),

@@ -92,7 +92,7 @@ class Record(CommandCase):
                      "run.steps=2000", status=2)
 
     def test_errors(self):
-        for value, words in (("[]", "0 entries"), ("0.5", "array of numbers"), ("[1, 1]", "each later"),
+        for value, words in (("[]", "0 entries"), ("0.5", "array of numbers"), ("[1, 1]", "strictly increasing"),
                              ("[2, 1]", "in the order of the run"), ("[-0.1]", "from 0 to the end, 40"),
                              ("[40.001]", "from 0 to the end, 40"), ("['x']", "number"), ("[nan]", "number")):
             done = self.hamflow("run", "kepler.toml", "--set", "run.record=" + value, status=2)

@@ -60,9 +60,9 @@ class Resume(CommandCase):
                                        (("run", "s.toml", "--out", "b"), "reversal", "run")):
             said = self.hamflow(*arguments, "--resume", status=3).stderr
             self.assertIn(f"found a {kind} in", said)
-            self.assertIn(f"from which no {other} goes on", said)
+            self.assertIn(f"which cannot be resumed as a {other}", said)
             said = self.hamflow(*arguments, status=3).stderr
-            self.assertIn(f"exists, with a {kind} in it; give another --out", said)
+            self.assertIn(f"exists and contains a {kind}; give another --out", said)
         self.assertEqual(sorted(os.listdir(self.folder / "a")), before)
 
     def test_the_scenario_of_a_longer_run_has_its_spacing_of_samples(self):
@@ -197,7 +197,7 @@ class Resume(CommandCase):
     def test_without_a_checkpoint_it_starts_from_the_beginning(self):
         self.scenario()
         self.run_to("whole")
-        self.assertIn("there is no folder new to go on from", self.run_to("new", "--resume").stderr)
+        self.assertIn("the folder new does not exist", self.run_to("new", "--resume").stderr)
         self.expect_equal("whole", "new")
         (self.folder / "empty").mkdir()
         (self.folder / "empty" / "checkpoint.bin.new").write_bytes(b"half")  # killed as it was written

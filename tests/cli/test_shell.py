@@ -62,7 +62,7 @@ class Shell(CommandCase):
         for method, rule in (("tao4", "event"), ("cg", "mirror")):
             for before in ("", "step 3\n"):
                 self.shell(f"{before}method {method}\nstep 3\n", "--set", f"problem.wall_rule={rule}", status=2, scenario="wall.toml")
-                self.assertIn(f'beside problem.wall_rule = "{rule}" with {method}', self.stderr)
+                self.assertIn(f'with problem.wall_rule = "{rule}" with {method}', self.stderr)
         self.shell("method cg\nstep 3\n", scenario="wall.toml")
 
     def test_a_method_that_many_particles_refuse(self):
@@ -265,7 +265,7 @@ steps = 1000
             self.assertIn(words, self.stderr)
             self.assertIn(f"line 4: {line}", self.stderr)
         self.shell("method stv4\ntol 1e-3\n", status=2)
-        self.assertIn("stv4, which has no tolerance", self.stderr)
+        self.assertIn("stv4 has no tolerance", self.stderr)
         self.shell("method rk4\n", "--set", "method={name='stv4'}", "--set", "run.arithmetic=lattice", status=2)
         self.assertIn("bijection", self.stderr)
         self.shell("step 2\ndt 30\nstep 5\nshow\n", status=1)

@@ -130,7 +130,7 @@ class StepControl(CommandCase):
 
     def test_refusals(self):
         for arguments, words in (
-            (("--set", "run.t_end=40"), ("run.t_end", "allowed steps", "part of the state")),
+            (("--set", "run.t_end=40"), ("run.t_end", "allowed steps", "steps of varying length")),
             (("--set", "run.record=[0, 1]"), ("run.record", "allowed record_every")),
             (("--set", "run.lyapunov=true"), ("run.lyapunov", "step_control = \"fixed\"")),
             (("--set", "run.eigenvalues=true"), ("run.eigenvalues", "not differentiated")),
@@ -203,7 +203,7 @@ class StepControl(CommandCase):
         error = json.loads(self.hamflow("run", "kepler.toml", *eccentric, status=1).stdout)["error"]
         self.assertIn("density of steps", error["message"])
         self.assertEqual(error["hint"].split(";")[0],
-                         'where the density of steps is at fault, try a smaller dt or method.monitor = "distance"')
+                         'if the density of steps failed, try a smaller dt or method.monitor = "distance"')
         self.hamflow("run", "kepler.toml", *eccentric, "--set", "method.monitor=distance")
 
 

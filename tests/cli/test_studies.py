@@ -131,8 +131,8 @@ class StartOfEnergy(CommandCase):
 
     def test_wrong_requests(self):
         for sets, words in (
-            (['problem.initial.p=["+", "-"]'], "found 2 components left to the energy; allowed one"),
-            (["problem.initial.p=[0.1, 0.1]"], "found it beside all components of p; allowed with one of them"),
+            (['problem.initial.p=["+", "-"]'], 'found 2 components "+" or "-"; allowed one'),
+            (["problem.initial.p=[0.1, 0.1]"], "found together with all components of p; allowed if one of them"),
             (['problem.initial={ q = [0, 0.1], p = ["+", 0] }'], "problem.initial.energy: missing; allowed a num"),
             (['problem.initial={ q = [0, 0.1], p = ["*", 0], energy = 1 }'], 'found an array with "*"'),
             (['problem.initial={ q = ["+", 0.1], p = [1, 0], energy = 1 }'], "problem.initial.q: found"),
@@ -142,7 +142,7 @@ class StartOfEnergy(CommandCase):
             self.assertIn(words, self.refused(*sets), sets)
         self.write("orbit.toml", HENON.replace('name = "henon-heiles"', 'name = "central-force"\npotential = "kepler"\n'
                                                 'orbit = { kind = "circle", r0 = 1 }'))
-        self.assertIn("found it beside orbit; allowed one of them", self.refused(file="orbit.toml"))
+        self.assertIn("found together with orbit; allowed one of them", self.refused(file="orbit.toml"))
 
     def test_the_scenario_in_the_folder_keeps_it_as_typed(self):
         self.hamflow("run", "hh.toml", "--set", "run.steps=30", "--out", "a.run", "--quiet")
@@ -252,7 +252,7 @@ class Studies(CommandCase):
                      "run.section.value=0,0.1", "run.section.coordinate=q1,q2", "run.section.direction=1,-1"):
             path = vary.split("=")[0]
             text = self.refused(*(section if "section" in path else ()), "--vary", vary)
-            self.assertIn(f"--vary: error: found {path}, which all members of a sweep have in common", text)
+            self.assertIn(f"--vary: error: found {path}, which must be the same for all members", text)
 
     def test_lists_in_step(self):
         found = self.sweep("--zip", "--vary", "run.dt=0.1,0.05,0.025", "--vary", "run.steps=10,20,40", "--vary",

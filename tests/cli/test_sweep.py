@@ -269,7 +269,7 @@ steps = 333
             more = ["--set", f"run.arithmetic={arithmetic}", "--set", "run.steps=20"]
             sweep = self.sweep("k.toml", "--vary", "problem.k=0.9,'1/3'", *more)
             self.assertEqual((sweep["arithmetic"], sweep["members_in_lanes"]), (arithmetic, 0))
-            self.assertIn("lanes are for double", sweep["note"])
+            self.assertIn("lanes need double arithmetic", sweep["note"])
             runs = [self.single("k.toml", f"problem.k={k}", *more[1::2]) for k in ("0.9", "'1/3'")]
             self.assertEqual([row["problem.k"] for row in sweep["rows"]], [0.9, "1/3"])
             for row, run in zip(sweep["rows"], runs):
@@ -386,8 +386,8 @@ steps = 333
     def test_what_belongs_to_single_runs_is_told(self):
         self.write("k.toml", KEPLER + '[output]\nfolder = "mine"\nfigures = ["energy-error"]\n')
         told = self.hamflow("sweep", "k.toml", "--vary", "problem.k=1", "--out", "none").stderr
-        self.assertIn("note: output.folder is not used: the folder of a sweep is that of --out", told)
-        self.assertIn("note: output.figures is not used: a sweep draws with --figure", told)
+        self.assertIn("note: output.folder is not used: --out gives the folder of a sweep", told)
+        self.assertIn("note: output.figures is not used: --figure draws the figure of a sweep", told)
         for words in (["compare", "k.toml", "--methods", "stv4", "--dt", "0.05"], ["reverse", "k.toml"]):
             self.assertIn("note: output.figures is not used", self.hamflow(*words, "--set", "run.steps=3").stderr, words)
 
@@ -410,7 +410,7 @@ steps = 333
             "problem.kk=1:2:3": "problem.kk: found an unknown key",
             "problme.k=1:2:3": "did you mean problem?",
             "problem.initial.q[2]=1:2:3": "found index 2 of an array of 2",
-            "problem.k[0]=1:2:3": "found problem.k to be no array",
+            "problem.k[0]=1:2:3": "problem.k is not an array",
             "problem.mass=-1:1:3": "problem.mass",
             "run.steps=1:2:3": "whole number",
             "method.name=stv4,stv5": "did you mean stv4?",
@@ -486,7 +486,7 @@ steps = 333
                      "--mean", "--colour", "varied/run.dt,energy/max_error")
         self.assertIn("over 4 members", (self.folder / "mean.svg").read_text())
         for options, words in ((("--figure", "mean.svg", "--mean"), "allowed two or more"),
-                               (("--mean",), "allowed beside --figure FILE"),
+                               (("--mean",), "allowed with --figure FILE"),
                                (("--figure", "mean.svg", "--mean", "--colour", "final/q1,max_error",
                                  "--vary", "problem.orbit.r_aph=2:3:5"), "did you mean energy/max_error?")):
             done = self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01:0.1:4", "--out", "none", *options,
@@ -495,7 +495,7 @@ steps = 333
         for options, words in ((("--colour", "energy/least"), "allowed varied/run.dt"),
                                (("--colour", "final/q3"), "did you mean final/q1?"),
                                (("--colour", "max_error"), "did you mean energy/max_error?"),
-                               (("--colour", "lyapunov1"), "with run.lyapunov = 1 there is observables/lyapunov1"),
+                               (("--colour", "lyapunov1"), "run.lyapunov = 1 adds observables/lyapunov1"),
                                (("--figure", "map.gif"), "allowed a file .svg")):
             figure = () if "--figure" in options else ("--figure", "map.svg")
             done = self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01:0.1:4", "--out", "none", *figure,

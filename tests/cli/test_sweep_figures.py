@@ -35,7 +35,7 @@ class SweepFigures(CommandCase):
         self.assertIn("not drawn: 1 of 3 members (1 without a finite value)", self.drawn(*poles, *column))
         self.assertIn("white: 3 of 9 members (3 without a finite value)",
                       self.drawn("--vary", "problem.initial.q[0]=0:0.2:3", "--vary", "problem.initial.q[1]=0.1:0.3:3", *column))
-        self.assertIn("not drawn: 1 of 3 means, of members without a finite",
+        self.assertIn("not drawn: 1 of 3 means, which are not finite",
                       self.drawn(*poles, "--vary", "problem.initial.q[1]=0.1,0.2", "--mean", *column))
         self.assertNotIn("not drawn", self.drawn("--vary", "problem.initial.q[0]=0.1,0.2", *column))
 

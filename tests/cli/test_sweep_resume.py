@@ -183,7 +183,7 @@ class SweepResume(CommandCase):
             self.hamflow("sweep", "m.toml", "--set", f"run.steps={steps}", *vary, "--out", f"fresh{steps}", "--force")
             done = self.hamflow("sweep", "m.toml", "--set", f"run.steps={steps}", "--vary", vary[1], "--out", "s", "--resume")
             self.assertEqual(self.files("s"), self.files(f"fresh{steps}"))
-        self.assertIn("3 members were finished with another number of steps", done.stderr)
+        self.assertIn("3 members had another number of steps", done.stderr)
         done = self.hamflow("sweep", "m.toml", "--set", "run.t_end=10", "--set", "run.checkpoint_every=7", "--vary", vary[1], "--out",
                             "s", "--resume")
         self.assertIn("nothing to do", done.stderr)

@@ -399,7 +399,7 @@ steps = 10
         found = json.loads(self.hamflow("reverse", self.tube("stv4", 'wall_rule = "reject"'), "--set",
                                         "run.arithmetic=lattice", "--json").stdout)
         self.assertFalse(found["expected_bit_exact"])
-        self.assertIn("one-to-one", found["note"])
+        self.assertIn("cannot be undone", found["note"])
 
     def test_mirrors_of_bodies_on_the_lattice(self):
         """The unit by default is coarse enough for walls further out than any body starts."""
@@ -422,7 +422,7 @@ arithmetic = "lattice"
         self.assertTrue(found["bit_exact"])
         given = "run.lattice={{position='2^{}'}}"
         text = self.refused("bodies.toml", "--set", given.format(-52))
-        self.assertIn('with run.lattice = { position = "2^-50" }', text)
+        self.assertIn('e.g. run.lattice = { position = "2^-50" }', text)
         self.refused("bodies.toml", "--set", given.format(-51))
         self.assertEqual(self.summary("bodies.toml", "--set", given.format(-50))["status"], "done")
 

@@ -68,7 +68,7 @@ observables = { a = "x1*p_y2 + q1*p4" }
             told = self.summary(self.free("verlet", f'wall_rule = "{rule}"'), "--set", "problem.initial={q=[1],p=[1]}",
                                 "--set", "run.dt=0.3", "--set", "run.steps=1")["certificate"]["reversal_distance"]
             self.assertEqual(told["proves"], "nothing", told)
-            self.assertIn("begins on a wall", told["reason"])
+            self.assertIn("starts on a wall", told["reason"])
 
     def test_what_a_note_of_a_reversal_proposes_is_possible(self):
         def note(*arguments):
@@ -82,7 +82,7 @@ observables = { a = "x1*p_y2 + q1*p4" }
                                                 "run.arithmetic=lattice", "--json").stdout)["bit_exact"])
         rejecting = note(self.box(*box, 'wall_rule = "reject"'))
         self.assertNotIn("every bit", rejecting)
-        self.assertIn("no return is promised", rejecting)
+        self.assertIn("no exact return is expected", rejecting)
 
     def test_a_mirror_that_is_left_too_far_names_its_coordinate(self):
         file = self.free("verlet", 'wall_rule = "mirror"')
@@ -107,7 +107,7 @@ steps = 20
 """)
             error = self.summary("one_way.toml", status=1)["error"]
             self.assertIn("at the wall of x no other momentum", error["message"])
-            self.assertIn("it is H that has a single root in that momentum", error["hint"])
+            self.assertIn("H = E has only one root in this momentum", error["hint"])
             self.assertNotIn("smaller dt", error["hint"])
 
     def free(self, method, rule=""):

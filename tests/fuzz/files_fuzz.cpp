@@ -404,7 +404,7 @@ void read_h5(const Template& of, const fs::path& folder, std::size_t how) {
   const fs::path file = folder / of.file;
   switch (how % 4) {
     case 0:
-      attempt([&] { (void)opening_of(read_for_figure(file, {"energy-error"})); });
+      attempt([&] { (void)first_steps_of(read_for_figure(file, {"energy-error"})); });
       attempt([&] { (void)open_run(file); });
       return;
     case 1:

@@ -6,8 +6,8 @@
 // difference of two numbers.   [Danby1988, ch. 6]
 #pragma once
 
-#include "hamflow/detail/core/two.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/core/two.hpp"
 #include "hamflow/orbits/universal_kepler.hpp"
 
 namespace hamflow {

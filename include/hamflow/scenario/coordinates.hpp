@@ -1,6 +1,6 @@
-// States in other coordinates (charts) of the same problem, as the problems declare them: a central force in the plane
-// (cartesian, polar), a double pendulum (absolute, relative). Every change is canonical: momenta change with positions,
-// H stays.   [Gross1999, ch. 2 and 3]
+// Converts states to other coordinates (charts) of the same problem, as the problems declare them: a central force in
+// the plane (cartesian, polar), a double pendulum (absolute, relative). Every change is canonical: momenta change with
+// positions, and H keeps its value.   [Gross1999, ch. 2 and 3]
 #pragma once
 
 #include <memory>
@@ -18,36 +18,38 @@ struct CanonicalState {
   std::vector<double> p;
 };
 
-/// Every problem that has several charts, with their names: "central-force has cartesian and polar; ...".
+/// All problems with several charts, and the names of the charts: "central-force has cartesian and polar; ...".
 std::string what_charts_there_are();
-/// @throws Error naming what is allowed when no problem has such coordinates
+/// @throws Error if no problem has such coordinates; the message names the allowed ones
 void check_coordinates(const std::string& name);
-/// The same problem in the coordinates `to`. @throws Error when it has none such, naming which problems have some
+/// The same problem in the coordinates `to`. @throws Error if it does not have them; the message names problems that do
 std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const ProblemEntry>& problem,
                                                    const std::string& to);
-/// A problem without the walls that belong to it, which stand in each of its charts; any other as it is.
+/// A problem without the walls that belong to it, which exist in all its charts. Other problems are returned unchanged.
 std::shared_ptr<const ProblemEntry> without_own_walls(const std::shared_ptr<const ProblemEntry>& problem);
-/// The coordinates that an entry is in; empty where there is one chart only.
+/// The coordinates of an entry; empty if the problem has only one chart.
 std::string coordinates_of(const ProblemEntry& problem);
 
-/// Converts states one after the other. Where the coordinates before know no angles, an angle goes on from the state
-/// before, without jumps by whole turns.
+/// Converts a sequence of states. If the old coordinates have no angles, a new angle continues from the state before
+/// without jumps by whole turns.
 class StateConverter {
  public:
-  /// Two entries of one problem that differ in their chart alone.
-  /// @param parameters of the problem; missing ones take their defaults
+  /// Converts between two entries of one problem that differ only in their charts.
+  /// @param parameters of the problem; missing ones have their defaults
   StateConverter(const std::shared_ptr<const ProblemEntry>& from, const std::shared_ptr<const ProblemEntry>& to,
                  const Texts& parameters = {});
-  /// By name, for any problem that has both; one of so many coordinates before others. @throws Error when there is none
+  /// Converts between charts given by name, for any problem that has both, preferably one with `size` coordinates.
+  /// @throws Error if no problem has both
   StateConverter(const std::string& from, const std::string& to, std::size_t size = 0);
-  /// @throws Error where a chart does not reach, for polar coordinates at r = 0, and for a state of another size
+  /// @throws Error if the chart does not cover the state, e.g. polar coordinates at r = 0, or the state has another
+  /// size
   CanonicalState operator()(const CanonicalState& state);
-  /// @throws Error with the residual, for a state off the constraints of its chart, or whose motion leaves them
+  /// @throws Error with the residual if the state or its velocity violates the constraints of its chart
   void require_on_constraints(const CanonicalState& state) const;
-  /// The coordinates, by their places in q, whose whole turns the states before do not show.
+  /// The indices in q of the angles whose whole turns cannot be seen in the old coordinates.
   const std::vector<std::size_t>& turning() const { return turning_; }
-  /// The largest change of such an angle between two states met so far. Beyond pi turns may have been missed, so a
-  /// value near it says that the states are too far apart.
+  /// The largest change so far of such an angle between two states. Above pi whole turns may be lost, so a value near
+  /// pi means that the states are too far apart.
   double largest_turn() const { return largest_turn_; }
 
  private:
@@ -58,7 +60,7 @@ class StateConverter {
   Entry to_;
   Texts parameters_;
   std::vector<std::size_t> turning_;
-  std::vector<double> last_;  // q of the state before
+  std::vector<double> last_;  // q of the previous state
   double largest_turn_ = 0;
 };
 

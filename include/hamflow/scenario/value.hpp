@@ -1,4 +1,4 @@
-// A scenario as a tree of values, for programs that have numbers and lists rather than text.
+// A scenario as a tree of values, for programs that have numbers and lists instead of text.
 #pragma once
 
 #include <concepts>
@@ -20,7 +20,7 @@ struct Value {
   using Table = std::vector<std::pair<std::string, Value>>;
   std::variant<bool, std::int64_t, double, std::string, List, Table> content;
 
-  Value(bool x) : content(x) {}  // NOLINT: a tree is written as the values that it holds
+  Value(bool x) : content(x) {}  // NOLINT: implicit, so that a tree can be written as plain values
   template <std::integral I>
   Value(I x) : content(static_cast<std::int64_t>(x)) {}                                         // NOLINT
   Value(double x) : content(x) {}                                                               // NOLINT
@@ -31,22 +31,22 @@ struct Value {
   Value(const std::vector<double>& numbers) : content(List(numbers.begin(), numbers.end())) {}  // NOLINT
 };
 
-/// The TOML of a scenario. Numbers have as few digits as read back the same.
-/// @throws Error where a key comes twice, or a list or table is nested deeper than a scenario can be
+/// The TOML text of a scenario. Numbers have the fewest digits that read back exactly.
+/// @throws Error if a key occurs twice, or lists and tables are nested deeper than a scenario allows
 std::string scenario_text(const Value::Table& tree);
 
-/// A problem without a start.
+/// A problem with its parameters, but without a start.
 struct ChosenProblem {
   std::shared_ptr<const ProblemEntry> entry{};
   std::map<std::string, std::string> variant{};
   Texts parameters{};  // complete
 };
-/// The problem of a table [problem], in which the start may be missing.
-/// @throws Rejection for what is wrong with the rest of it
+/// Reads the problem of a table [problem], in which the start may be missing.
+/// @throws Rejection if other keys are wrong
 ChosenProblem read_problem_tree(const Value::Table& problem);
 
-/// Reads a scenario from a tree. The complaints of the result list everything that is wrong; the text of the scenario
-/// is scenario_text(tree).
+/// Reads a scenario from a tree. The complaints of the result list all errors; the text of the scenario is
+/// scenario_text(tree).
 Reading read_scenario_tree(const Value::Table& tree, const std::string& name);
 
 }  // namespace hamflow

@@ -1,13 +1,12 @@
-// Gragg's modified midpoint rule, extrapolated in h^2 (Aitken-Neville), with sub-steps of its own: the second kind of
-// method by which a reference solution is checked, of any order in any arithmetic.   [HNW1993, II.9]
-// It is no method that a scenario can choose, and shares nothing with those that can but the derivatives of H.
+// Gragg's modified midpoint rule, extrapolated in h^2 (Aitken-Neville), with adaptive sub-steps. It has any order in
+// any arithmetic and is the second method by which a reference solution is checked.   [HNW1993, II.9] Scenarios cannot
+// choose it. It shares only the derivatives of H with the other methods.
 //
-// A sub-step of length tau has K columns of 2, 4, ..., 2 K parts. With the max-norms of the q- and of the p-block, each
-// by itself,
+// A sub-step of length tau has K columns of 2, 4, ..., 2 K parts. With separate max-norms of the q- and the p-block,
 //     error = max over both blocks of |T_K,K - T_K,K-1|/(tolerance max(|x0|, |x1|, |tau x0'|)) <= 1,
 //     next tau = tau clamp(0.8 error^(-1/(2K - 1)), 1/10, 4).
-// K grows with the digits, as those that a column adds are bought most cheaply by about as many columns. What is
-// extrapolated is the increment of a sub-step, not the state: its rounding is then relative to the increment.
+// K grows with the number of digits, which is about the cheapest choice. The increment of a sub-step is extrapolated,
+// not the state, so that its rounding is relative to the increment.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +24,7 @@
 namespace hamflow {
 
 struct ExtrapolationOptions {
-  double tolerance = 1e-18;  // on the error of a sub-step, relative to the size of q and of p, each by itself
+  double tolerance = 1e-18;  // on the error of a sub-step, relative to the size of q and to the size of p
   int max_substeps = 1000000;
 };
 
@@ -53,7 +52,7 @@ class ExtrapolatedMidpointMethod {
   }
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
 
-  /// From z to Psi_h(z). Leaves z where it is when it fails, or is stopped (StopQuestion).
+  /// Advances z to Psi_h(z). z is unchanged if the step fails or is stopped (StopQuestion).
   Outcome step(const P& problem, const Real& h, PhasePoint<A, n>& z) {
     const PhasePoint<A, n> start = z;
     const double whole = std::fabs(static_cast<double>(h));
@@ -76,7 +75,7 @@ class ExtrapolatedMidpointMethod {
           z = start;
           return Outcome::stopped;
         }
-        // Not a number: the sub-step left the domain of H.
+        // NaN means that the sub-step left the domain of H.
         const double growth = 0.8 * std::pow(error, -1.0 / (2 * columns_ - 1));
         proposal = part * (growth > 4 ? 4 : growth > 0.1 ? growth : 0.1);
         if (repeated && error <= 1 && proposal > part) proposal = part;
@@ -129,8 +128,8 @@ class ExtrapolatedMidpointMethod {
     }
     derivative(problem, q, p, rate);
   }
-  /// Whether a trial has left everything behind, so far that its columns cannot agree. The sine of an angle of
-  /// 10^(10^6) would take mp seconds, and leads further out.
+  /// Whether a trial has left the scale of the motion so far that its columns cannot agree. Continuing would only cost
+  /// time: the sine of an angle of 10^(10^6) takes seconds in mp.
   bool is_astray(const Change& change) const {
     for (std::size_t i = 0; i < change.q.size(); ++i) {
       const double size =
@@ -139,7 +138,7 @@ class ExtrapolatedMidpointMethod {
     }
     return false;
   }
-  /// How far that is: beyond 10^60 times the state and its rate.
+  /// The limit of a trial: 10^60 times the state and its rate.
   double limit(const Real& tau) const {
     double size = 0;
     for (std::size_t i = 0; i < q_.size(); ++i) {
@@ -149,7 +148,7 @@ class ExtrapolatedMidpointMethod {
     }
     return 1e60 * size;
   }
-  /// The increment over tau in an even number of parts, smoothed at the end (II.9.13c).
+  /// The increment over tau in an even number of parts, with smoothing at the end (II.9.13c).
   Change modified_midpoint(const P& problem, const Real& tau, int parts) {
     const Real h = tau / Real(parts);
     Change before{zeros_like(q_), zeros_like(q_)};
@@ -178,7 +177,7 @@ class ExtrapolatedMidpointMethod {
     return now;
   }
 
-  /// The last row of the table goes into row_; returns the error over the tolerance.
+  /// Computes the last row of the table into row_; returns error/tolerance.
   double attempt(const P& problem, const Real& tau) {
     far_ = limit(tau);
     astray_ = false;
@@ -206,7 +205,7 @@ class ExtrapolatedMidpointMethod {
     return std::fmax(error_of(q_.size() - clocks_of(problem), q_, last.q, other.q, first_.q, tau),
                      error_of(p_.size(), p_, last.p, other.p, first_.p, tau));
   }
-  /// Of the first `count` entries of a block: what carries the time is behind them.
+  /// Only the first `count` entries of a block are used; an entry for the time follows them.
   double error_of(std::size_t count, const V& x, const V& last, const V& other, const V& rate, const Real& tau) const {
     Real error(0);
     Real size(0);
@@ -231,7 +230,7 @@ class ExtrapolatedMidpointMethod {
   long long evaluations_ = 0;
 };
 
-/// The recipe. Its name stands in no list: a Request that has it goes to ProblemEntry::simulate_erased.
+/// The recipe. Its name is in no list; a Request with it goes to ProblemEntry::simulate_erased.
 struct ExtrapolatedMidpoint {
   static constexpr const char* name = "(extrapolation)";
   static constexpr bool implicit = false;

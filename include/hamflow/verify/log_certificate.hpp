@@ -1,4 +1,4 @@
-// The drift class of energies that any program has recorded: times and energies are all that is known.
+// The drift class of energies in the log of any program. Only times and energies are known.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace hamflow {
 
-/// What the energies of a log show.
+/// The result for the energies of a log.
 struct LogCertificate {
   RunDrift drift;                        // class, reason, growth exponent; increments in units of the largest deviation
   std::optional<double> energy_level{};  // max |E - E0|/scale; none: the scale is unknown
-  std::optional<double> scale{};         // that was given, or |E0|; none: E0 is 0
+  std::optional<double> scale{};         // the given scale, or |E0|; none: E0 is 0
   std::size_t samples = 0;
   /// None: too few samples.
   std::optional<double> growth_exponent() const {
@@ -21,24 +21,27 @@ struct LogCertificate {
   }
 };
 
-/// The first time that is not above the one before it; none: the times rise strictly.
+/// The index of the first time that is not larger than the one before; nullopt: the times increase strictly.
 std::optional<std::size_t> first_time_that_does_not_rise(const std::vector<double>& t);
 
-/// Judges a log by the rules of a run's certificate (classify_run). A log has no q and p, so that
-/// - oscillations are those of the energy itself, seen from block to block: at least two have to be seen for a class,
-///   16 for a bounded error or a random walk;
-/// - `linear` needs a rate that is steady over the four quarters of the log, but for what noise and the change itself
-///   explain: else it may be a part of an oscillation slower than the log. A straight line, of E or of log |E|, and one
-///   beneath independent noise, needs no oscillation. `bounded` needs quarters in which the energy goes neither way;
-/// - rounding is that of four times the largest energy, since its parts are larger, or half of the smallest difference
-///   of two energies where that is more, as in a log with few digits; of the steps between samples one is assumed to
-///   round.
+/// Judges a log by the rules of a run's certificate (classify_run). A log has no q and p, therefore:
+/// - only oscillations of the energy itself are seen, from block to block; a class needs at least two, the classes
+/// bounded
+///   and random walk need 16;
+/// - `linear` needs a rate that is the same in the four quarters of the log, up to noise and the change itself;
+/// otherwise
+///   it may be a part of an oscillation slower than the log. A straight line of E or of log |E|, also beneath
+///   independent noise, needs no oscillation. `bounded` needs that the energy has no direction in any quarter;
+/// - the rounding is the one of four times the largest energy, because its parts are larger than the sum, or half of
+/// the
+///   smallest difference of two energies if that is larger, as in a log with few digits; one rounding is assumed
+///   between two samples.
 ///
-/// Times need not be equidistant: the log is cut into blocks of equal duration, of which each gives one of its samples.
-/// Where a gap is longer than half of the 32nd part of the log the class is undecided.
+/// Times need not be equidistant: the log is divided into blocks of equal duration, each of which gives one sample. If
+/// a gap is longer than half of the 32nd part of the log, the class is undecided.
 ///
-/// @param scale that the level is a part of; without it |E0|, as far as E0 is not 0
-/// @throws Error for different lengths, fewer than two samples, numbers that are not finite, times that do not rise
+/// @param scale by which the error is divided; without it |E0|, unless E0 is 0
+/// @throws Error for different lengths, fewer than two samples, numbers that are not finite, times that do not increase
 /// strictly, and a scale that is not positive
 LogCertificate certify_log(const std::vector<double>& t, const std::vector<double>& energy,
                            std::optional<double> scale = {});

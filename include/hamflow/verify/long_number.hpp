@@ -1,4 +1,4 @@
-// Results that a double may be too small for: errors of runs in hundreds of digits.
+// Results that may be below the range of double: errors of runs in hundreds of digits.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace hamflow {
 
-/// A number as a double, and as a text where it is too small or too large to be one; else the text is empty.
+/// A number as a double, and as a text if it is too small or too large for a double; else the text is empty.
 struct LongNumber {
   double value = 0;
   std::string text{};
-  LongNumber(double x = 0) : value(x) {}     // NOLINT: every double is one of these
-  operator double() const { return value; }  // NOLINT: what most readers want
+  LongNumber(double x = 0) : value(x) {}     // NOLINT: implicit conversion is intended
+  operator double() const { return value; }  // NOLINT: most code only needs the double
 };
 
 /// x times a decimal number of any size.
@@ -23,7 +23,7 @@ bool at_most(const LongNumber& a, const LongNumber& b);
 /// The largest of |a_i - b_i| for lists of decimal numbers, computed in all their digits.
 LongNumber largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b);
 
-/// Decimal numbers less the first of them, over the largest of these differences.
+/// Differences of decimal numbers from the first one, divided by the largest of these differences.
 struct ScaledDifferences {
   std::vector<double> values;  // at most 1 in size
   std::string unit = "0";      // the largest difference

@@ -1,4 +1,4 @@
-// The property table, measured: what a method claims beside what its step was measured to do.
+// Measures the table of properties: the claims of a method compared with measurements of its step.
 //     order                     slope of the global error against a reference of another family, in long double
 //     symplectic                |Psi'^T J Psi' - J|, Psi' exact
 //     weakly time-reversible    |S Psi_-h S z - Psi_h z|
@@ -32,7 +32,7 @@ constexpr std::string_view name(Finding finding) {
   return finding == Finding::yes ? "yes" : finding == Finding::no ? "no" : "unclear";
 }
 
-/// Where to measure: states around a generic one of a problem, and a step that is large but safe there.
+/// A region for measurements: states around a generic one of a problem, and a step that is large but safe there.
 struct Region : RegionInfo {
   std::string problem;
   std::map<std::string, std::string> variant{};  // e.g. potential = kepler
@@ -48,7 +48,7 @@ inline std::shared_ptr<const ProblemEntry> find_problem(const Region& region) {
 struct OrderMeasurement {
   static constexpr int fewest_points = 5;    // four halvings of h
   static constexpr double tolerance = 0.15;  // on the slope
-  // d log(error)/d log(h); infinite where every error is rounding, NaN where fewer than two errors were measured
+  // d log(error)/d log(h); infinite if every error is rounding, NaN if fewer than two errors were measured
   double slope = std::numeric_limits<double>::quiet_NaN();
   int points = 0;                                                 // in the fit
   double finest_step = std::numeric_limits<double>::quiet_NaN();  // of the points used
@@ -58,7 +58,7 @@ struct OrderMeasurement {
 };
 
 struct DefectMeasurement {
-  double defect = 0;  // the largest over the states; NaN where no step was taken from any of them
+  double defect = 0;  // the largest over the states; NaN if no step succeeded
   double units = 0;   // the largest defect/(eps times the size of the terms)
   Finding holds = Finding::unclear;
   std::string reason{};  // which steps failed
@@ -66,19 +66,19 @@ struct DefectMeasurement {
 
 struct EnergyMeasurement {
   double step = 0;
-  double level = 0;       // max |H - H0|/scale over starts and blocks; NaN where a run ended early
-  double rounding = 0;    // what rounding alone explains of it
-  double fine_level = 0;  // the same with a step 128 times smaller, where roundings that a step divides by h show
+  double level = 0;       // max |H - H0|/scale over starts and blocks; NaN if a run ended early
+  double rounding = 0;    // the level that rounding alone explains
+  double fine_level = 0;  // the same with a step 128 times smaller, which shows roundings that a step divides by h
   double fine_rounding = 0;
-  double step_exponent = 0;  // c in level ~ h^c over a fixed time; NaN where too few steps show more than rounding
+  double step_exponent = 0;  // c in level ~ h^c over a fixed time; NaN if too few steps show more than rounding
   DriftStatistics drift;
   std::string reason{};  // which runs ended early
-  /// yes: at rounding and not drifting. up_to_quadrature: not at rounding, but falling faster than the method
-  /// converges. None: runs that ended early leave it open. @param order of the method
+  /// yes: at rounding level without drift. up_to_quadrature: above rounding, but decreasing faster with h than the
+  /// error of the method. nullopt: unknown, because runs ended early. @param order of the method
   std::optional<Conservation> conserving(int order, bool even_in_momenta = true) const;
 };
 
-/// NaN: of steps that were not all taken.
+/// Numbers are NaN if not all steps succeeded.
 struct CostMeasurement {
   double force = 0, gradient = 0, hessian = 0, linear_solves = 0;  // per step
   Finding explicit_step = Finding::no;                             // no solves, and every step costs the same
@@ -92,21 +92,21 @@ struct Measurement {
   OrderMeasurement order;
   DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step
   DefectMeasurement symplectic, weakly_reversible, symmetric, reversible;
-  bool even_in_momenta = true;  // H(q, -p) = H(q, p): else the motion itself is not reversed with the momenta
+  bool even_in_momenta = true;  // H(q, -p) = H(q, p); else negating the momenta does not reverse the motion itself
   EnergyMeasurement energy;
   CostMeasurement cost;
 };
 
-/// One property: what is claimed, what was found, and whether that agrees.
+/// One property: the claim, the measurement, and whether they agree.
 struct PropertyCell {
   std::string property;
   std::string claimed;
   std::string measured;
   Finding agrees = Finding::unclear;
-  std::string reason{};  // for being unclear, where something was not measured
+  std::string reason{};  // why it is unclear, if something was not measured
 };
 
-/// What a method was seen to keep.
+/// The certificate of a method.
 struct MethodCertificate {
   struct Map {
     std::string problem;
@@ -115,7 +115,7 @@ struct MethodCertificate {
     double max_error = 0;  // NaN: no step was taken
     double relative = 0;
     double rounding = 0;
-    std::optional<bool> conserved{};  // none: undecided, for the reason given
+    std::optional<bool> conserved{};  // none: undecided, see reason
     std::string reason{};
   };
   struct Return {
@@ -126,20 +126,20 @@ struct MethodCertificate {
     std::string proves;  // as name(ReversalProof)
     std::string reason;
   };
-  // The worst over the problems, each from its ensemble of starts. None: undecided on one of them, and linear on none.
+  // The worst class over the problems, each from an ensemble of starts. none: undecided on one of them, linear on none.
   std::optional<DriftClass> drift = DriftClass::bounded;
   std::vector<Map> momentum_maps;
   std::vector<Return> reversals;
 };
 
-/// One method: its claims beside the measurements.
+/// One method: its claims and the measurements.
 struct PropertyRow {
   MethodInfo claims;
   std::vector<Measurement> on;  // one for each problem
   std::vector<PropertyCell> cells;
   MethodCertificate certificate{};
-  std::string measured_as{};  // with the options that make its steps maps of one order; empty: as it was asked for
-  /// yes: every property agrees. no: one differs. Else one is unclear.
+  std::string measured_as{};  // the method with options that give its step an order; empty: as requested
+  /// yes: every property agrees; no: one differs; unclear: otherwise.
   Finding verdict() const;
   bool agrees() const { return verdict() == Finding::yes; }
   bool has(std::string_view property) const;
@@ -148,44 +148,45 @@ struct PropertyRow {
   const PropertyCell& operator[](std::string_view property) const;
 };
 
-/// Newton is quadratic if a step needs no more corrections than this: a first guess that is right to a factor of 2
-/// leaves 2^(-2^k) after k corrections, and 2^-64 is below the rounding of a double.
+/// Newton's iteration converges quadratically if a step needs at most so many corrections: an initial guess that is
+/// right to a factor of 2 has the error 2^(-2^k) after k corrections, and 2^-64 is below the rounding of a double.
 inline constexpr int most_newton_corrections = 6;
 
 OrderMeasurement measure_order(const StepMap& map, const Region& region);
 EnergyMeasurement measure_energy(const StepMap& map, const Region& region);
 CostMeasurement measure_cost(const StepMap& map, const Region& region);
-/// Everything.
+/// Measures everything.
 Measurement measure(const StepMap& map, const Region& region);
-/// Claims against measurements. A claim is refuted by one problem. A property that is not claimed has to be missing on
-/// at least one of two or more problems; on a single problem nothing follows from its presence.
+/// Compares claims with measurements. One problem is enough to refute a claim. A property that is not claimed must be
+/// missing on at least one of two or more problems; with a single problem its presence proves nothing.
 PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on);
 
-/// Drift from the measurements; momentum maps and returns from runs of their own: the maps on the Kepler ellipse and on
-/// three bodies, where the method can run there, and on the regions; the returns on the regions.
+/// Takes the drift from the measurements and makes further runs for momentum maps and reversals: momentum maps on the
+/// Kepler ellipse and on three bodies, if the method can run there, and on the regions; reversals on the regions.
 MethodCertificate certificate_of(const MethodSpec& method, std::span<const Region> regions,
                                  std::span<const Measurement> on);
 
-/// A state of the region, the k-th of its own sequence of random ones.
+/// The k-th random state of the region.
 State<double> random_state(const Region& region, std::uint64_t k);
-/// The region that a problem of the catalogue declares; what the variant leaves open is chosen as usual_problem does.
-/// Without one, states about the default start, or about any state. @throws Error when there is no such problem
+/// The region that a problem of the catalogue declares; usual_problem() chooses what the variant leaves open. If the
+/// problem declares none, states around the default start or around any state. @throws Error if there is no such
+/// problem
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant = {});
-/// The second region of a problem with walls of its own, where every step meets one, which is located. Without value:
-/// there is none.
+/// The second region of a problem with fixed walls, in which every step meets a wall and the bounce is located.
+/// nullopt: there is none.
 std::optional<Region> region_at_walls(const std::string& problem);
-/// The step of a method on the region's problem. @throws Error when there is no such problem
+/// The step of a method on the problem of the region. @throws Error if there is no such problem
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method);
-/// pendulum and henon-heiles; for methods that need another problem, that one.
+/// pendulum and henon-heiles; for methods that need another problem, such a problem.
 std::vector<Region> default_regions(const MethodSpec& method = {});
-/// A method of the catalogue. @throws Error when the method or a problem is unknown
+/// Measures a method of the catalogue. @throws Error if the method or a problem is unknown
 PropertyRow measure_method(const MethodSpec& method, std::span<const Region> regions);
-/// What a step through a wall is: order, structure and Jacobian. The row has no cells for the rest.
+/// Measures a step through a wall: order, structure and Jacobian. The row has no cells for the other properties.
 PropertyRow measure_at_walls(const MethodSpec& method, const Region& region);
 
-/// Tables of plain text: the claims beside the findings, then the numbers behind them.
+/// Tables of plain text: claims and findings, then the numbers behind them.
 std::string property_table(std::span<const PropertyRow> rows);
-/// The same as JSON; NaN and infinity are null, and so is `agrees` where it is unclear.
+/// The same as JSON; NaN and infinity are null, and so is `agrees` if it is unclear.
 std::string property_json(std::span<const PropertyRow> rows);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// Several methods measured, on all cores: what `hamflow verify` does.
+// `hamflow verify`: measures several methods on all cores.
 #pragma once
 
 #include <functional>
@@ -18,16 +18,16 @@ struct VerificationRequest {
 
 class Verification {
  public:
-  /// Measuring begins at once, in threads of its own.
-  /// @throws Rejection for unknown methods or an unknown problem   @throws Error when a method refuses the problem
+  /// Starts measuring at once, in background threads.
+  /// @throws Rejection for unknown methods or an unknown problem   @throws Error if a method does not allow the problem
   explicit Verification(const VerificationRequest& request);
-  /// Gives up the methods that are being measured, and waits until they are left.
+  /// Stops the measurements and waits until the threads have ended.
   ~Verification();
   Verification(const Verification&) = delete;
   Verification& operator=(const Verification&) = delete;
 
-  /// Until every method is measured, or `goes_on`, asked 50 times a second, returns false.
-  /// @return false when it did
+  /// Waits until every method is measured, or `goes_on`, which is called 50 times a second, returns false.
+  /// @return false if goes_on() did
   bool wait(const std::function<bool()>& goes_on);
   /// The methods measured so far, in the order of the request; on a problem with walls two rows each.
   std::vector<PropertyRow> rows();
@@ -37,7 +37,7 @@ class Verification {
   std::unique_ptr<Impl> impl_;
 };
 
-/// property_json(), and "status": "interrupted" where measuring was stopped.
+/// property_json(), with "status": "interrupted" if measuring was stopped.
 std::string verification_json(const std::vector<PropertyRow>& rows, bool interrupted);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// What the catalogue declares, as text: what `hamflow list` and `hamflow show` print.
+// The declarations of the catalogue as text, as `hamflow list` and `hamflow show` print them.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// The methods to begin with and the names of all others, or each with a line.
+/// The recommended methods with a line each and the names of all others; with `all`, a line for every method.
 std::string methods_text(bool all);
 std::string problems_text();
 std::string methods_json();
@@ -17,16 +17,16 @@ std::string problems_json();
 
 struct CatalogueText {
   std::string text;
-  std::vector<std::string> formulas{};  // of a problem: H of each of its variants, as LaTeX
+  std::vector<std::string> formulas{};  // for a problem: H of each of its variants, as LaTeX
 };
 
-/// A problem, a method ("cg" or "cg(1,5)"), a kind of figure, or the keys of a table of scenarios; none where nothing
-/// has that name.   @throws Error when the options of the method are wrong
+/// Describes a problem, a method ("cg" or "cg(1,5)"), a kind of figure, or the keys of a table of scenarios. Returns
+/// nullopt if nothing has this name.   @throws Error if the options of the method are wrong
 std::optional<CatalogueText> catalogue_text(const std::string& name);
-/// What a scenario describes: its problem, its structure and its start.
+/// Describes a scenario: its problem, the structure of H and the start.
 CatalogueText description_of(const Scenario& scenario);
-/// Says that nothing has a name, and proposes the nearest one.
-/// @param experiments of the theses, where the caller knows them
+/// The message that a name is unknown, with the nearest known name.
+/// @param experiments of the theses, if the caller knows them
 std::string not_in_catalogue(const std::string& name, const std::vector<std::string>* experiments = nullptr);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// What `hamflow certify` does: the energies of a log, by any program, judged by the rules of a run's certificate.
+// `hamflow certify`: judges the energies in the log of any program by the rules of a run's certificate.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@ namespace hamflow {
 
 struct CertifiedLog {
   LogCertificate certificate;
-  std::vector<std::string> notes;  // what of the file was not read
+  std::vector<std::string> notes;  // parts of the file that were not read
 };
 
-/// @param time, energy names or numbers of columns, from 1; of HDF5 paths of datasets, "samples/q:2" for a column
+/// @param time, energy names of columns, or their numbers from 1; in HDF5 paths of datasets, "samples/q:2" for a column
 /// @param scale see certify_log
-/// @throws FileError where the file cannot be read, Rejection where it is no log or the columns are none
+/// @throws FileError if the file cannot be read   @throws Rejection if it is not a log or has no such columns
 CertifiedLog certify_file(const std::filesystem::path& file, const std::string& time, const std::string& energy,
                           std::optional<double> scale = {});
 
 /// {drift, energy_level, growth_exponent, reason, samples, periods, scale}; null where it is unknown.
 std::string log_certificate_json(const LogCertificate& certificate);
-/// The same for people, a line each.
+/// The same as text, one line for each entry.
 std::string log_certificate_text(const LogCertificate& certificate);
 
 }  // namespace hamflow

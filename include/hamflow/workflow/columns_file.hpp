@@ -1,4 +1,4 @@
-// Columns of numbers as an HDF5 file, for programs that keep curves of their own.
+// Writes columns of numbers to an HDF5 file, for programs that store curves of their own.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// Columns of one group; they need not be equally long.
+/// Columns of one group; their lengths may differ.
 struct ColumnGroup {
   std::string name;
   std::vector<std::pair<std::string, std::vector<double>>> columns;
@@ -16,12 +16,12 @@ struct ColumnGroup {
 
 /// Names and texts, and groups of columns.
 struct ColumnsFile {
-  std::vector<std::pair<std::string, std::string>> attributes;  // of the root
+  std::vector<std::pair<std::string, std::string>> attributes;  // of the root group
   std::vector<std::pair<std::string, std::string>> texts;       // each a dataset of one string
   std::vector<ColumnGroup> groups;                              // each column a dataset of doubles
 };
 
-/// Writes the whole file, or leaves the old one. Names must differ within a group. @throws FileError
+/// Writes the whole file; if that fails, the old file is kept. Names must differ within a group. @throws FileError
 void write_columns(const std::filesystem::path& file, const ColumnsFile& contents);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// A run that is in a folder, as it was in memory.
+// Reads a run from its folder into memory.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 namespace hamflow {
 
 struct OpenedRun {
-  Scenario scenario;    // that was carried out
+  Scenario scenario;    // the scenario that was run
   RunTables tables;     // up to the last complete row
-  std::string summary;  // summary.json; empty where the run goes on or was cut short
+  std::string summary;  // summary.json; empty if the run has not ended or was killed
 };
 
-/// @param run the folder of a run, or its run.h5, also while it grows
-/// @throws FileError where it cannot be read, or is no run
+/// @param run the folder of a run, or its run.h5; the run may still be going on
+/// @throws FileError if it cannot be read, or is not a run
 OpenedRun open_run(const std::filesystem::path& run);
 
 }  // namespace hamflow

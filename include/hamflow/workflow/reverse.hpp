@@ -1,4 +1,5 @@
-// Forward, negate the momenta, forward again, negate: what came back of a scenario's start.
+// Tests time reversibility: integrates forward, negates the momenta, integrates again, negates the momenta, and
+// compares with the start.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +15,9 @@ namespace hamflow {
 /// The return error of N bodies.   [Sonnleitner2010, p. 72]
 struct ReturnError {
   LongNumber position;      // sqrt(sum |difference|^2)/N
-  LongNumber momentum;      // the same of the momenta
+  LongNumber momentum;      // the same for the momenta
   LongNumber position_rms;  // sqrt(sum |difference|^2/N)
-  LongNumber momentum_rms;  // the same of the momenta
+  LongNumber momentum_rms;  // the same for the momenta
 };
 /// The part of a reversal that only bodies and particles have.
 struct BodiesReturned {
@@ -55,40 +56,40 @@ struct ReversalSummary {
 
 /// The text of reverse.json.
 std::string reversal_json(const ReversalSummary& summary);
-/// The summary for people, one line for each entry.
+/// The summary as text, one line for each entry.
 std::string reversal_text(const ReversalSummary& summary);
 
 /// The result of a reversal. The summary has its numbers; some are repeated here.
 struct ReversalReport {
   ReversalSummary summary;
-  std::string status;                 // that of the summary
-  std::string message;                // of a failure, a sentence
-  std::string hint;                   // and what can be done
+  std::string status;                 // status of the summary
+  std::string message;                // after a failure: a sentence that says what failed
+  std::string hint;                   // after a failure: what can be tried
   Reversal reversal;                  // empty if the reversal was complete before, with Existing::resume
-  bool expected_bit_exact = false;    // whether problem, method and arithmetic promise every bit
-  std::string note;                   // what a distance means here; empty where it speaks for itself
-  std::vector<std::string> warnings;  // what is nonsense about the motion itself
+  bool expected_bit_exact = false;    // problem, method and arithmetic guarantee that every bit returns
+  std::string note;                   // how to read the distance; empty: no note is needed
+  std::vector<std::string> warnings;  // about the motion itself
   std::string json;                   // reversal_json(summary)
   std::string text;                   // reversal_text(summary)
 };
 
-/// @param pulse called with the steps taken both ways; returns false to stop   @throws Error
+/// @param pulse called with the number of steps taken forward and back; returns false to stop   @throws Error
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t step)>& pulse = {});
 
-/// How a reversal is carried out. None of it changes a bit of it.
+/// Settings that do not change the result of a reversal.
 struct ReversalSettings {
-  /// Keeps reverse.json, reverse.h5 with the states at the start, the turn and the end, and on the way reversal.bin,
-  /// from which it goes on; empty: nothing is written.
+  /// Output folder: reverse.json, reverse.h5 with the states at the start, the turning point and the end, and during
+  /// the reversal the checkpoint reversal.bin. Empty: nothing is written.
   std::filesystem::path folder{};
   Existing existing = Existing::refuse;
-  /// Called several times a second with the steps taken both ways; returns false to stop.
+  /// Called several times a second with the number of steps taken forward and back; returns false to stop.
   std::function<bool(std::int64_t step)> pulse{};
-  /// Called with what is worth a note, a sentence each.
+  /// Called with each note, a sentence.
   std::function<void(const std::string& note)> note{};
 };
 
-/// @throws Rejection when the scenario is not that of the reversal in the folder, which is to go on   @throws FileError
-/// when the folder cannot be used   @throws Error
+/// @throws Rejection if a reversal is to be resumed and the one in the folder has another scenario
+/// @throws FileError if the folder cannot be used   @throws Error
 ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings);
 
 }  // namespace hamflow

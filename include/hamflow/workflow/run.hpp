@@ -1,5 +1,5 @@
-// A scenario becomes a run: its samples, checkpoints, summary and figures in a folder; or, without a folder, its tables
-// in memory. This is what `hamflow run` calls; nothing here prints, reads the environment or catches signals.
+// Runs a scenario. Samples, checkpoints, summary and figures are written to a folder; without a folder the tables are
+// kept in memory. `hamflow run` calls this; nothing here prints, reads the environment or catches signals.
 #pragma once
 
 #include <filesystem>
@@ -17,49 +17,49 @@
 
 namespace hamflow {
 
-/// How a scenario is carried out. None of it changes a bit of the trajectory.
+/// Settings that do not change the trajectory.
 struct RunSettings {
   std::filesystem::path folder{};  // empty: nothing is written
   Existing existing = Existing::refuse;
   bool samples = true;  // without a folder: whether samples, sections, events and bounces are kept in memory
-  /// Called several times a second with the steps taken; returns false to stop at the step boundary reached. What it
-  /// throws, and what an observer throws, ends the run and reaches the caller; files then are as a kill leaves them.
+  /// Called several times a second with the number of steps taken; returns false to stop after the present step.
+  /// Exceptions of pulse and of observers end the run and reach the caller; the files are then as after a kill.
   std::function<bool(std::int64_t step)> pulse{};
-  /// Called with what is worth a note, a sentence each.
+  /// Called with each note, a sentence.
   std::function<void(const std::string& note)> note{};
-  /// Woken with the others. In a run with a folder their archive() is part of the checkpoints.
+  /// Additional observers. In a run with a folder their archive() is part of the checkpoints.
   std::vector<Observer*> observers{};
 };
 
 /// The result of a run. The summary has its numbers; some are repeated here, as the simulation returns them.
 struct RunReport {
   Summary summary;
-  std::string status;        // that of the summary: "done", "interrupted", "failed"
-  std::string message;       // of a run that failed: what happened, a sentence
-  std::string hint;          // and what can be done
-  std::string details;       // the numbers of a step that found no solution
-  std::string file_trouble;  // why not everything could be written; empty: it was. The numbers hold all the same
-  std::vector<std::string> warnings{};  // what is plainly nonsense about it, "kind: message" each
-  bool drawing_stopped = false;         // the run ended, its figures were not drawn because pulse() said to stop
-  bool was_complete = false;            // resumed, and there was nothing to do
+  std::string status;        // status of the summary: "done", "interrupted", "failed"
+  std::string message;       // after a failure: a sentence that says what failed
+  std::string hint;          // after a failure: what can be tried
+  std::string details;       // iteration history of an implicit step without a solution
+  std::string file_trouble;  // why a file could not be written; empty: all were. The results here are valid anyway
+  std::vector<std::string> warnings{};  // "kind: message" each
+  bool drawing_stopped = false;         // the run ended, but pulse() stopped the drawing of its figures
+  bool was_complete = false;            // the resumed run was complete already
   Outcome outcome = Outcome::done;
-  RunTables tables;  // of a run without a folder: what it recorded
+  RunTables tables;  // the records of a run without a folder
   Frame final;
   Excursion energy;
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;  // in the order of the problem
   std::optional<RunCertificate> certificate;
-  double wall_seconds = 0;  // of all its parts
+  double wall_seconds = 0;  // of all parts of a resumed run
   std::string json;         // summary_json(summary), as in summary.json
   std::string text;         // summary_text(summary)
 };
 
-/// @throws Rejection when the scenario does not go on with the run in the folder   @throws Error when an observer has
-/// no archive()   @throws FileError when the folder cannot be used
+/// @throws Rejection if the run in the folder cannot be continued with this scenario
+/// @throws Error if an observer has no archive()   @throws FileError if the folder cannot be used
 RunReport run(const Scenario& scenario, const RunSettings& settings = {});
 
-/// Where `hamflow run` puts a run: `out` if given, else the scenario's folder, else <stem of its file>.run in the
-/// working directory.
+/// The folder into which `hamflow run` writes: `out` if given, else the scenario's folder, else <stem of its file>.run
+/// in the working directory.
 std::filesystem::path folder_of(const Scenario& scenario, const std::string& out = {});
 
 }  // namespace hamflow

@@ -32,20 +32,20 @@ std::vector<std::string> warning_lines(const std::vector<Warning>& warnings);
 /// Why a run failed.
 struct RunError {
   std::string kind;       // the name of an Outcome, or "file"
-  std::int64_t step = 0;  // the step that failed; of a file, the last step that was taken
+  std::int64_t step = 0;  // the step that failed; for kind "file" the last step that was taken
   double t = 0;           // time of the last good state
   std::string message;    // a sentence that says what happened
   std::string hint;       // a sentence that says what to try
-  std::string details;    // the numbers of a step that found no solution; else empty
+  std::string details;    // iteration history of an implicit step without a solution; else empty
 };
 
 /// Positions and momenta.
 struct StateSummary {
   std::vector<double> q;
   std::vector<double> p;
-  FrameDigits digits{};   // time, q and p with all digits in arithmetic beyond double; else empty
+  FrameDigits digits{};   // time, q and p with all digits, in arithmetic with more digits than double; else empty
   bool is_large = false;  // too many numbers for a summary: q, p and their digits are empty
-  std::string dataset{};  // of a large state, the dataset of the result file that holds it; empty: no file does
+  std::string dataset{};  // for a large state: the dataset of the result file that holds it; empty: no file does
 };
 struct StateAtTime : StateSummary {
   double t = 0;
@@ -53,10 +53,10 @@ struct StateAtTime : StateSummary {
 
 /// The energy H(q, p). If H depends on t: H minus the work of the drive.
 struct EnergySummary {
-  LongNumber initial;                              // in arithmetic beyond double with all digits
+  LongNumber initial;                              // with all digits
   LongNumber final;                                // the same
   LongNumber max_error;                            // |H - H0| over every step
-  std::optional<double> scale;                     // max(|H0|, |T| + |V|, p dH/dp); none: the run is that of a map
+  std::optional<double> scale;                     // max(|H0|, |T| + |V|, p dH/dp); none: the problem is a map
   std::optional<LongNumber> max_relative_error{};  // max_error/scale; none: H is 0 at the start, or a map
 };
 
@@ -94,10 +94,10 @@ struct DiagnosticsSummary {
   std::optional<DiagnosticRange> condition_inverse_mass;
 };
 
-/// The orbit in a central force, from the effective potential. In arithmetic beyond double with all digits.
+/// The orbit in a central force, from the effective potential. Numbers have all digits of the arithmetic.
 struct OrbitSummary {
   std::string type;   // "circle", "bounded closed", "bounded open", "unbounded"
-  std::string conic;  // "circle", "ellipse", "parabola", "hyperbola", "line"; empty: no conic
+  std::string conic;  // "circle", "ellipse", "parabola", "hyperbola", "line"; empty: the orbit is not a conic
   LongNumber r_min;
   LongNumber r_max;                     // infinite: not bounded
   LongNumber circular_radius;           // NaN: there is no circular orbit
@@ -149,7 +149,7 @@ struct LyapunovSummary {
   std::optional<std::int64_t> stopped_at_step;  // the step that could not be differentiated; none: all could
 };
 
-/// run.eigenvalues: of the derivative of all steps.
+/// run.eigenvalues: eigenvalues of M, the derivative of all steps together.
 struct EigenvalueSummary {
   std::optional<std::vector<std::complex<double>>> values;  // partners next to each other; none: see message
   double pair_defect = 0;                                   // max |lambda lambda' - 1| of partners
@@ -218,7 +218,7 @@ struct Summary {
 
 /// The text of summary.json.
 std::string summary_json(const Summary& summary);
-/// The summary for people, one line for each entry.
+/// The summary as text, one line for each entry.
 std::string summary_text(const Summary& summary);
 /// Reads the text of summary.json. The parts of `effort` and `certificate` that JSON does not have keep their default
 /// values.

@@ -113,7 +113,7 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, const Extents
       paths.push_back(in_plane(data, data.path.q.empty() ? samples : data.path, body, plane));
       x.include(paths.back().x);
       y.include(paths.back().y);
-      openings.push_back(in_plane(data, data.opening, body, plane));
+      openings.push_back(in_plane(data, data.first_steps, body, plane));
       hows.push_back(how);
     }
   }
@@ -162,7 +162,7 @@ Extent widened(const Extent& extent, double length) {
 Extents shared_extents(const Figure& figure) {
   Extents all(3);
   for (const FigureData& run : figure.runs) {
-    for (const FigureSamples* samples : {static_cast<const FigureSamples*>(&run), &run.path, &run.opening}) {
+    for (const FigureSamples* samples : {static_cast<const FigureSamples*>(&run), &run.path, &run.first_steps}) {
       for (std::size_t i = 0; i < samples->q.size(); ++i) all[i % 3].include(samples->q[i]);
     }
   }

@@ -74,16 +74,16 @@ bool waves_too_finely(const Curve& track) {
 }
 
 Curve opening_in_plane(const FigureData& data, const Plane& plane) {
-  FigureData opening;
-  static_cast<FigureSamples&>(opening) = data.opening;
-  opening.coordinates = data.coordinates;
-  opening.momenta = data.momenta;
-  const std::vector<std::string> names = column_names(opening);
+  FigureData first_steps;
+  static_cast<FigureSamples&>(first_steps) = data.first_steps;
+  first_steps.coordinates = data.coordinates;
+  first_steps.momenta = data.momenta;
+  const std::vector<std::string> names = column_names(first_steps);
   const auto known = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (opening.t.empty() || !known(plane.first) || !known(plane.second)) return {};
-  return in_plane(opening, plane);
+  if (first_steps.t.empty() || !known(plane.first) || !known(plane.second)) return {};
+  return in_plane(first_steps, plane);
 }
 
 /// The level curve of the start and the samples as dots on it.

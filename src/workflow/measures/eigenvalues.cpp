@@ -1,4 +1,4 @@
-// run.eigenvalues: of the derivative of all steps; on a periodic orbit the Floquet multipliers.
+// run.eigenvalues: the eigenvalues of the derivative of all steps. On a periodic orbit they are Floquet multipliers.
 #include <fmt/format.h>
 
 #include <limits>
@@ -38,11 +38,11 @@ class EigenvalueMeasure final : public Measure {
       all.pair_defect = found.pair_defect;
       all.symplectic_defect = found.symplectic_defect;
       all.norm = found.norm;
-    } catch (const Error& error) {  // chaos overflows in the end: the run itself is none the worse
+    } catch (const Error& error) {  // the derivative of a chaotic orbit overflows in the end; the run itself is fine
       all.message = error.what();
     }
   }
-  /// NaN where the summary of a run has none.
+  /// The numbers of a sweep; NaN if the eigenvalues cannot be computed.
   std::vector<double> row() const override {
     const std::size_t n = watch_.rows().size();
     try {
@@ -86,8 +86,8 @@ std::string eigenvalues_text(const EigenvalueSummary& found) {
             (value.imag() != 0 ? number_text(value.imag(), "{:+.6g}") + "i" : "");
   }
   if (found.values->size() > most_shown) line += ", ...";
-  return line + fmt::format("; products of pairs {} off 1, {} off symplectic", number_text(found.pair_defect, "{:.2g}"),
-                            number_text(found.symplectic_defect, "{:.2g}"));
+  return line + fmt::format("; products of pairs differ from 1 by {}, symplecticity defect {}",
+                            number_text(found.pair_defect, "{:.2g}"), number_text(found.symplectic_defect, "{:.2g}"));
 }
 
 template <class Ar>

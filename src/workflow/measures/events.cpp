@@ -1,4 +1,5 @@
-// run.events: zeros of expressions, located as the points of a section are, counted, recorded, and able to end a run.
+// run.events: finds zeros of expressions in the same way as points of a Poincare section. Events are counted and
+// recorded, and may end the run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +34,8 @@ class EventsMeasure final : public Measure, public Observer {
     for (const auto& finder : finders_) (void)finder->observe(frame);
     return by_ ? Verdict::stop : Verdict::go_on;
   }
-  /// An event that ends the run may stand before what makes the step fail. The others belong to steps that were taken.
+  /// An event that ends the run may lie before the point at which the step fails. Other events are only searched in
+  /// steps that succeeded.
   Verdict observe_failed_step() override {
     ++step_;
     end_ += dt_;
@@ -77,7 +79,7 @@ class EventsMeasure final : public Measure, public Observer {
   void found(std::size_t event, const SectionPoint& point, Recorder* recorder) {
     if (recorder != nullptr) recorder->append(event, step_, point);
     if (!events_[event].stops) return;
-    // The first within the step is the furthest from its end, whichever way the time runs.
+    // The first event within a step is the one furthest from the end of the step, for both directions of time.
     if (by_ && std::abs(end_ - where_.time) >= std::abs(end_ - point.time)) return;
     by_ = event;
     where_ = point;
@@ -92,8 +94,8 @@ class EventsMeasure final : public Measure, public Observer {
   double dt_;
   std::vector<std::unique_ptr<SectionFinder>> finders_;
   std::int64_t step_ = 0;
-  double end_ = 0;                 // of the step
-  std::optional<std::size_t> by_;  // the event that ends the run, the first within its step
+  double end_ = 0;                 // time at the end of the step
+  std::optional<std::size_t> by_;  // the event that ends the run: the first one within its step
   SectionPoint where_;
 };
 

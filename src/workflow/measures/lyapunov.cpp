@@ -1,4 +1,4 @@
-// run.lyapunov: exponents of the method's own steps, along the run; in a sweep a column each.
+// run.lyapunov: Lyapunov exponents of the numerical map of the method, along the run; a sweep has a column for each.
 #include "hamflow/detail/verify/lyapunov.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ class LyapunovMeasure final : public Measure {
     all.renormalisations = found.renormalisations;
     if (!watch_.followed()) all.stopped_at_step = watch_.step();
   }
-  /// NaN where not every step could be followed: a column cannot say at which step its numbers end.
+  /// The numbers of a sweep; NaN if a step could not be differentiated, since a column cannot say at which step.
   std::vector<double> row() const override {
     std::vector<double> exponents = spectrum().exponents;
     if (!watch_.followed()) std::fill(exponents.begin(), exponents.end(), std::numeric_limits<double>::quiet_NaN());
@@ -73,11 +73,11 @@ std::string lyapunov_text(const LyapunovSummary& found) {
   }
   if (found.exponents.size() > most_shown) line += ", ...";
   if (!found.steady) {
-    line += "; undecided: the growth is not steady, as on regular and on sticky orbits; try a longer run";
+    line += "; undecided: the growth is not steady, as for regular and sticky orbits; try a longer run";
   }
   if (!found.pair_sums.empty()) line += fmt::format("; pairs sum to at most {:.2g}", largest_of(found.pair_sums));
   if (found.stopped_at_step) {
-    line += fmt::format("; over a time of {} alone: then a step could not be differentiated",
+    line += fmt::format("; averaged only up to t = {}, where a step could not be differentiated",
                         number_text(found.time, "{:.6g}"));
   }
   return line;

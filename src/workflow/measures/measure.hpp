@@ -1,6 +1,6 @@
-// A **measured quantity**: what watches a run beside its trajectory, and what the summary and a sweep hold of it. One
-// quantity is one file of this folder: measures/lyapunov.cpp defines measure_lyapunov(), and the build finds it. The
-// run, its checkpoints, the summary and the sweep walk the list and know none by name.
+// A **measured quantity**: it observes a run and adds its result to the summary and to a sweep. Each quantity is one
+// file of this folder: measures/lyapunov.cpp defines measure_lyapunov(), and the build finds it. The run, its
+// checkpoints, the summary and the sweep iterate over the list and name no quantity.
 #pragma once
 
 #include <memory>
@@ -26,51 +26,50 @@ class Recorder;
 class Measure {
  public:
   virtual ~Measure() = default;
-  /// Woken with the other observers; its archive() stands in the checkpoints.
+  /// Called with the other observers of the run; its archive() is part of the checkpoints.
   virtual Observer& observer() = 0;
-  /// The same where it follows tangent vectors, which many members carry together.
+  /// The observer, if it follows tangent vectors, which many members of a sweep compute together; else null.
   virtual TangentWatch* tangents() { return nullptr; }
-  /// The same where it needs sums over the steps alone, which lanes keep by themselves.
+  /// The observer, if it only needs sums over the steps, which SIMD lanes compute themselves; else null.
   virtual SummedSteps* summing() { return nullptr; }
-  /// Sets its member of the summary to what was seen so far, and adds the events that it counts.
+  /// Writes the results so far into its member of the summary, and adds the events that it counts.
   virtual void add_to(Summary& summary) const = 0;
-  /// What there is to say of those counts.
+  /// Remarks about these counts.
   virtual std::vector<std::string> event_notes() const { return {}; }
-  /// Whether the run ends here by its own will.
+  /// Whether it ends the run at this step.
   virtual bool stops() const { return false; }
-  /// Long steps into which it could not look closely enough.
+  /// The number of steps that were too long to be searched.
   virtual std::int64_t unseen_steps() const { return 0; }
-  /// How often each event of the scenario was met, and which has ended the run; of events alone.
+  /// The number of occurrences of each event, and the event that ended the run; only for events.
   virtual std::vector<std::int64_t> event_counts() const { return {}; }
   virtual std::optional<MemberStop> stopped_by() const { return {}; }
-  /// Its numbers in a sweep, from what was seen of a member that is done, one for each of the columns.
+  /// The numbers of a finished member of a sweep, one for each column.
   virtual std::vector<double> row() const { return {}; }
 };
 
 struct MeasureKind {
-  std::string key;    // of [run], of the checkpoint
-  std::string label;  // of its line in the summary for people
+  std::string key;    // key in [run] and in the checkpoint
+  std::string label;  // label of its line in the text of the summary
   bool (*requested)(const Scenario&);
-  /// Of anything that shows step, time, q and p: a run, a lane. The scenario outlives it.
+  /// Makes a measure that needs only step, time, q and p: for a run or a SIMD lane. The scenario outlives it.
   std::unique_ptr<Measure> (*make)(const Scenario&) = nullptr;
-  /// In its place, of what needs more of a run.   @param recorder takes what is recorded beside the samples; may be
-  /// null
+  /// Used in place of `make` if the measure needs the simulation.
+  /// @param recorder receives the records other than samples; may be null
   std::unique_ptr<Measure> (*make_of_run)(const Scenario&, const Simulation&, Recorder* recorder) = nullptr;
-  /// Its key in the summary, and its line for people. Nothing where the summary does not have it.
+  /// Write and read its key in the JSON summary, and return its line of text; empty if the summary does not have it.
   void (*write)(JsonWriter&, Summary&);
   void (*read)(JsonReader&, Summary&);
   std::string (*text)(const Summary&);
-  /// The names of the columns that it gives a member of a sweep; null: a sweep records it for each member in a table of
-  /// its own.
+  /// The names of its columns in a sweep; null: a sweep records it in a separate table for each member.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;
-  /// Whether it gives a sweep the counts of events, made by make_of_run: members then run one by one.
+  /// Whether it counts events in a sweep. Then make_of_run is used and members run one by one.
   bool counts_events = false;
 };
 
 /// Every kind, in the alphabetical order of its files.
 std::span<const MeasureKind> measure_kinds();
 
-/// The map of one step that the scenario's method takes.
+/// The map of one step of the scenario's method.
 StepMapSource step_map_of(const Scenario& scenario);
 
 }  // namespace hamflow

@@ -51,8 +51,8 @@ void Measures::add_warnings(std::vector<Warning>& warnings) const {
   std::int64_t most = 0;
   for (const auto& [kind, measure] : requested_) most = std::max(most, measure->unseen_steps());
   if (most == 0) return;
-  warnings.push_back({"long_step", fmt::format("{} too long to be searched: points of a section and events may "
-                                               "have been missed there; try a smaller dt",
+  warnings.push_back({"long_step", fmt::format("{} too long to be searched for section points and events, so some may "
+                                               "be missing; try a smaller dt",
                                                most == 1 ? "1 step was" : fmt::format("{} steps were", most))});
 }
 
@@ -62,7 +62,7 @@ bool Measures::stopped() const {
 
 namespace {
 
-/// A column of a sweep is what the same measure shows of the single run.
+/// The measures of one member of a sweep. A column has the same numbers as the summary of a single run.
 class MeasuredMember final : public MemberWatch {
  public:
   MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario, const Simulation* alone) {

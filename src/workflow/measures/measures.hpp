@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// An observer whose archive stands in the checkpoint under its name.
+/// An observer, and the name of its archive in the checkpoint.
 struct NamedObserver {
   std::string name;
   Observer* observer;
@@ -18,11 +18,11 @@ class Measures {
   /// @param recorder see MeasureKind
   Measures(const Scenario& scenario, const Simulation& simulation, Recorder* recorder);
   std::vector<NamedObserver> observers() const;
-  /// The run has ended, where nobody could know before: what waits for a later step is brought up to this one.
+  /// Call this after an early stop: observers that wait for a later step process the steps up to this one.
   void reach_the_end(const Frame& end);
-  /// Adds what each has found to the summary.
+  /// Adds the results of all measures to the summary.
   void add_to(Summary& summary) const;
-  /// What is to be said of steps that were too long for them.
+  /// Adds a warning if steps were too long to be searched.
   void add_warnings(std::vector<Warning>& warnings) const;
   /// Whether one of them has ended the run.
   bool stopped() const;
@@ -31,7 +31,7 @@ class Measures {
   std::vector<std::pair<const MeasureKind*, std::unique_ptr<Measure>>> requested_;
 };
 
-/// The columns that a member of a sweep has, of all quantities that it requests.
+/// The columns in a sweep of all quantities that the scenario requests.
 MemberObservables sweep_columns(const Scenario& member);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// run.section: the points of a Poincare section, recorded beside the samples.
+// run.section: finds the points of a Poincare section and records them.
 #include <fmt/format.h>
 
 #include "measure.hpp"
@@ -30,7 +30,7 @@ class SectionMeasure final : public Measure {
 
 std::string section_line(const SectionSummary& found) {
   std::string line = counted(static_cast<std::size_t>(found.points), "point");
-  if (found.points > 0) line += fmt::format(", at most {} off it", number_text(found.max_residual, "{:.2g}"));
+  if (found.points > 0) line += fmt::format(", residual at most {}", number_text(found.max_residual, "{:.2g}"));
   return line + (found.message.empty() ? "" : "; " + found.message);
 }
 

@@ -1,13 +1,13 @@
-// Lyapunov exponents of a step map: how fast neighbouring orbits of the *method* part.
+// Lyapunov exponents of a step map: the rates at which neighbouring orbits of the *method* separate.
 //
-// Tangent vectors are carried by the exact derivative of each step and orthonormalised from time to time, M Q = Q' R;
-// the exponents are the sums of log R_ii over time.   [BenettinEtAl1980]
+// Tangent vectors are multiplied by the exact derivative of each step and orthonormalised from time to time, M Q = Q'
+// R; the exponents are the sums of log R_ii divided by the time.   [BenettinEtAl1980]
 //
-// Exponents of a Hamiltonian flow come in pairs +-lambda. Here they do so at every finite time, not in the limit alone:
+// Exponents of a Hamiltonian flow come in pairs +-lambda. Here this holds at every finite time, not only in the limit:
 // the first frame is (u_1 .. u_n, J u_n .. J u_1), orthonormal and symplectic. In this order a symplectic M has a
 // factorisation with Q' orthonormal and symplectic and R symplectic, R_ii R_(2n+1-i)(2n+1-i) = 1 (the Iwasawa
-// decomposition of the symplectic group), and Q R with R_ii > 0 is unique. A sum lambda_i + lambda_(2n+1-i) that
-// differs from 0 by more than rounding therefore shows a step that is not symplectic.
+// decomposition of the symplectic group), and Q R with R_ii > 0 is unique. So a sum lambda_i + lambda_(2n+1-i) that
+// differs from 0 by more than rounding proves that a step is not symplectic.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@
 
 namespace hamflow {
 
-/// Orthonormal tangent vectors; all 2n, or the first few of them.
+/// Orthonormal tangent vectors: all 2n, or the first few of them.
 class TangentFrame {
  public:
   /// @param dimension n   @param count 1 .. 2n   @param seed of the generic first frame
   TangentFrame(std::size_t dimension, std::size_t count, std::uint64_t seed = 1);
   std::vector<State<double>>& vectors() { return vectors_; }
   const std::vector<State<double>>& vectors() const { return vectors_; }
-  /// Makes the vectors orthonormal again, in their order, by modified Gram-Schmidt, twice; `logs` are the log R_ii.
-  /// False where one of them vanished or is not finite.
+  /// Makes the vectors orthonormal in their order, by modified Gram-Schmidt applied twice; `logs` are the log R_ii.
+  /// Returns false if a vector vanished or is not finite.
   bool orthonormalise(std::span<double> logs);
   template <class Archive>
   void archive(Archive& ar) {
@@ -43,30 +43,31 @@ class TangentFrame {
 
 /// The exponents after a time.
 struct LyapunovSpectrum {
-  /// In the order of the frame: falling, once they have settled.
+  /// In the order of the frame, which is decreasing after they have settled.
   std::vector<double> exponents;
-  /// Standard errors of the mean over 32 to 63 blocks of time. Blocks are correlated: the errors are those of blocks of
-  /// one, two and four joined, continued to the length of the run by the power with which they fall, and no smaller
-  /// than any of these three. NaN before there are 16 blocks. They belong to this stretch of the orbit: where it is
-  /// trapped near regular orbits before or later, the exponent of a longer run differs by more.
+  /// Standard errors of the mean over 32 to 63 blocks of time. Because blocks are correlated, the errors for joins of
+  /// one, two and four blocks are extrapolated to the length of the run by the power with which they decrease; the
+  /// result is at least as large as each of the three. NaN with fewer than 16 blocks. They are valid for this part of
+  /// the orbit: if the orbit is trapped near regular orbits earlier or later, the exponent of a longer run differs by
+  /// more.
   std::vector<double> standard_errors;
-  /// Whether the largest exponent grew steadily: every two joined blocks have at least a fifth of its mean, and joining
-  /// blocks raises its error by less than a half. On regular motion, where the exponents go to 0 like log(t)/t, and on
-  /// most sticky orbits it is false: neither value nor error tell what a longer run would show.
+  /// Whether the largest exponent grew steadily: every pair of joined blocks has at least a fifth of its mean, and
+  /// joining blocks raises its error by less than a half. It is false for regular motion, where the exponents decrease
+  /// to 0 like log(t)/t, and for most sticky orbits; then value and error do not predict a longer run.
   bool steady = false;
-  std::vector<double> pair_sums;  // lambda_i + lambda_(2n+1-i), i = 1 .. n, where all 2n are known
+  std::vector<double> pair_sums;  // lambda_i + lambda_(2n+1-i), i = 1 .. n, if all 2n are known
   double time = 0;
   std::int64_t renormalisations = 0;
 };
 
-/// Sums of log R_ii, with block averages on the way.
+/// Sums of log R_ii over the run and over blocks.
 class LyapunovSums {
  public:
   explicit LyapunovSums(std::size_t count) : total_(count), block_(count) {}
   void add(std::span<const double> logs, std::int64_t steps);
   /// @param dimension n   @param h the length of a step
   LyapunovSpectrum spectrum(std::size_t dimension, double h) const;
-  /// Of exponent i over each so many joined blocks; what is left over at the end is left out.
+  /// The rates of exponent i over each group of `joined` blocks. An incomplete group at the end is left out.
   std::vector<double> rates(std::size_t i, std::size_t joined, double h) const;
   template <class Archive>
   void archive(Archive& ar) {
@@ -85,53 +86,55 @@ class LyapunovSums {
   std::vector<double> total_;
   std::int64_t steps_ = 0;
   std::int64_t renormalisations_ = 0;
-  std::vector<double> block_;  // the present one
+  std::vector<double> block_;  // the present block
   std::int64_t block_steps_ = 0;
-  std::int64_t wanted_steps_ = 1;  // of a block; doubles when there are too many
+  std::int64_t wanted_steps_ = 1;  // length of a block; doubles when there are too many blocks
   std::vector<Block> blocks_;
 };
 
-/// How many steps to take before the next orthonormalisation: their growth should be some powers of 2, which costs
-/// about as many bits of the most contracting directions, and stays below 2^20 unless it suddenly triples.
+/// The number of steps before the next orthonormalisation. The growth should be a few powers of 2: the most contracting
+/// directions lose about as many bits, and it stays below 2^20 unless the rate suddenly triples.
 std::int64_t steps_between(std::int64_t present, std::span<const double> logs);
 
-/// Where the map of a step comes from: made when it is first needed, which members in lanes never need.
+/// Makes the map of a step when it is first needed. Members of a sweep in SIMD lanes never need it.
 struct StepMapSource {
   std::size_t dimension = 0;  // n
   std::function<std::shared_ptr<const StepMap>()> map;
 };
 
-/// Tangent vectors on the way to the next observation: they depend on nothing that the run does until then.
+/// The state and the tangent vectors to be advanced to the next observation, independently of the run.
 struct TangentsUnderWay {
   State<double>* z;
   std::vector<State<double>>* vectors;
   std::int64_t steps;
 };
 
-/// Follows a run: tangent vectors are carried along its states, which it does not change. Of a run in double.
+/// Follows a run in double with tangent vectors. It does not change the states of the run.
 class TangentWatch : public Observer {
  public:
-  /// @param last_step of the run   @throws Error when there is no such map
+  /// @param last_step of the run   @throws Error if there is no such map
   TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
   TangentWatch(StepMapSource source, double h, std::int64_t last_step);
   std::int64_t next_due(std::int64_t step) const override;
-  /// @throws Error when there is no map
+  /// @throws Error if there is no map
   Verdict observe(const Frame& frame) override;
   void archive(Writer& ar) final;
   void archive(Reader& ar) final;
-  /// Whether every step could be followed.
+  /// Whether every step could be differentiated.
   bool followed() const { return followed_; }
   /// The step that the vectors have reached, -1 before the first.
   std::int64_t step() const { return at_; }
 
-  /// What others may carry to the next observation, many watches together; nothing where that is done, or none is due.
+  /// The vectors that the caller may advance to the next observation, many watches together. nullopt if that was done
+  /// already, or no observation is due.
   std::optional<TangentsUnderWay> under_way();
-  /// They have been carried, state and vectors. Until the observation there is nothing to archive.
+  /// Call this after the state and the vectors were advanced. Until the observation archive() must not be called.
   void set_carried() { carried_to_ = next_due(at_ + 1); }
 
  protected:
   virtual std::vector<State<double>>& tangents() = 0;
-  /// Called after so many steps. Returns how many to take next; 0: the vectors cannot be followed any further.
+  /// Called after `steps` steps. Returns the number of steps to take next; 0: the vectors cannot be followed any
+  /// further.
   virtual std::int64_t taken(std::int64_t steps) = 0;
   /// The fields of the class that carries the vectors.
   virtual void archive_tangents(Writer& ar) = 0;
@@ -149,25 +152,26 @@ class TangentWatch : public Observer {
   }
 
   StepMapSource source_;
-  std::shared_ptr<const StepMap> map_;  // of the source, once it is needed
+  std::shared_ptr<const StepMap> map_;  // made by the source when it is needed
   double h_;
   std::int64_t last_step_;
   std::int64_t due_ = 0;
   std::int64_t at_ = -1;          // the step to which the vectors belong
-  std::int64_t carried_to_ = -1;  // the step to which others have carried them
+  std::int64_t carried_to_ = -1;  // the step to which the caller has advanced them
   State<double> z_;
   bool followed_ = true;
-  std::vector<std::byte> before_the_end_;  // what archive() writes after an observation that only the end made due
+  std::vector<std::byte>
+      before_the_end_;  // archived in place of an observation that was due only because the run ended
 };
 
-/// Lyapunov exponents beside a run. Costs, for each exponent, about three times the steps behind virtual calls.
+/// Lyapunov exponents of a run. Each exponent costs about three times as much as the steps behind virtual calls.
 class LyapunovWatch final : public TangentWatch {
  public:
-  /// @param count of exponents, the largest first; 0: all 2n
+  /// @param count number of exponents, the largest first; 0: all 2n
   LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count = 0);
   LyapunovWatch(StepMapSource source, double h, std::int64_t last_step, std::size_t count = 0);
   LyapunovSpectrum spectrum() const { return sums_.spectrum(dimension(), step_length()); }
-  /// The same where each step is a unit of time.
+  /// The same with the step as the unit of time.
   LyapunovSpectrum spectrum_by_steps() const { return sums_.spectrum(dimension(), 1); }
 
  protected:
@@ -184,16 +188,16 @@ class LyapunovWatch final : public TangentWatch {
 };
 
 struct LyapunovOptions {
-  std::int64_t transient = 0;  // steps before counting begins, in which the vectors turn towards their directions
+  std::int64_t transient = 0;  // steps before the sums begin, in which the vectors align with their directions
   std::uint64_t seed = 1;      // of the first frame
 };
 
 /// The largest `count` exponents of the orbit of z over `steps` steps after the transient; count 0: all.
-/// @throws Error when a step fails
+/// @throws Error if a step fails
 LyapunovSpectrum lyapunov_spectrum(const StepMap& map, State<double> z, double h, std::int64_t steps,
                                    std::size_t count = 0, const LyapunovOptions& options = {});
-/// The largest alone; NaN when a step fails. May be called from several threads, also on one map. At its fastest with a
-/// StepMapOf that names problem and method as types.
+/// Only the largest exponent; NaN if a step fails. Several threads may call it, also with one map. It is fastest with a
+/// StepMapOf, which names problem and method as types.
 double largest_lyapunov(const StepMap& map, State<double> z, double h, std::int64_t steps,
                         const LyapunovOptions& options = {});
 

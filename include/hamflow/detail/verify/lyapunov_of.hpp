@@ -1,5 +1,5 @@
-// The largest Lyapunov exponent with problem and method as types: orbit and tangent vector are one dual number, carried
-// by the kernel of the steps itself. For maps of many orbits.
+// The largest Lyapunov exponent with problem and method as types, for parameter maps of many orbits. Orbit and tangent
+// vector form one dual number, which the kernel of the step advances.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace hamflow {
 
-/// As largest_lyapunov(StepMap); NaN where the orbit does not stay finite. Allocates nothing in a loop for problems of
-/// fixed size. May be called from several threads.
+/// Like largest_lyapunov(StepMap); NaN if the orbit does not stay finite. For problems of fixed size the loop allocates
+/// nothing. Several threads may call it.
 template <class P, class Recipe>
 double largest_lyapunov(const P& problem, const Recipe& recipe, const Vector<double, P::dimension>& q,
                         const Vector<double, P::dimension>& p, double h, std::int64_t steps,
@@ -49,7 +49,7 @@ double largest_lyapunov(const P& problem, const Recipe& recipe, const Vector<dou
       z.q[i].slope[0] /= length;
       z.p[i].slope[0] /= length;
     }
-    method.invalidate();  // the slope of the kept kick is that of the longer vector
+    method.invalidate();  // the kick that the method keeps has the derivative along the vector before normalisation
     log = std::log(length);
     if (done >= 0) total += log;
     block = steps_between(block, {&log, 1});

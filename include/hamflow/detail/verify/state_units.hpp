@@ -1,6 +1,6 @@
-// **Units of a state**: which of its numbers share a unit, and how large each is along a motion. A distance between two
-// states compares coordinates with coordinates and momenta with momenta, each relative to its own size, so that it does
-// not depend on the units in which the problem is written.
+// **Units of a state**: which numbers of a state share a unit, and how large they are along a motion. A distance
+// between two states compares coordinates with coordinates and momenta with momenta, each relative to its own size, so
+// that it does not depend on the units of the problem.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace hamflow {
 
-/// Coordinates that share a unit form a group, and their momenta form one.
+/// Coordinates that share a unit form a group, and their momenta form another.
 struct UnitGroups {
   std::vector<std::size_t> of{};    // the group of each coordinate and of its momentum; empty: there is one group
   std::vector<std::string> q{"q"};  // names of the groups of coordinates
@@ -21,8 +21,8 @@ struct UnitGroups {
   std::size_t group(std::size_t coordinate) const { return of.empty() ? 0 : of[coordinate]; }
 };
 
-/// The groups of a problem with so many coordinates: angles and the others. Nobody has declared the units of a typed H:
-/// there each coordinate is a group, and each family x[1], x[2], ... is one.
+/// The groups of a problem with so many coordinates: angles and the other coordinates. The units of a typed H are not
+/// declared, so there each coordinate is a group, and each array x[1], x[2], ... is one.
 UnitGroups unit_groups(const ProblemEntry& problem, std::size_t size);
 
 /// The largest |q_i| and |p_i| along a motion.
@@ -35,12 +35,12 @@ struct StateSizes {
   }
 };
 
-/// The size of each group, those of coordinates first, then those of momenta. A group that stays below 2^-40 of the
-/// largest group of its kind holds rounding alone, and counts as that large. 0: every coordinate, or every momentum, is
-/// 0 along the whole motion.
+/// The size of each group: coordinates first, then momenta. A group that stays below 2^-40 of the largest group of its
+/// kind contains only rounding, and its size is set to this limit. 0: every coordinate, or every momentum, is 0 along
+/// the whole motion.
 struct GroupSizes {
   std::vector<double> size;
-  std::vector<bool> is_rounding;  // its own size is below that limit
+  std::vector<bool> is_rounding;  // the size of the group was below this limit
 };
 GroupSizes group_sizes(const UnitGroups& groups, const StateSizes& sizes);
 
@@ -49,9 +49,9 @@ struct GroupDistance {
   std::string name;     // of the group
   LongNumber distance;  // in its unit
   double size = 0;      // of the group along the motion
-  LongNumber relative;  // to that size; where the size is 0 the distance itself
+  LongNumber relative;  // distance/size; if the size is 0, the distance
 };
-/// @return one for each group, those of coordinates first
+/// @return one for each group, coordinates first
 std::vector<GroupDistance> group_distances(const UnitGroups& groups, const StateSizes& sizes, const Frame& a,
                                            const Frame& b);
 

@@ -1,4 +1,4 @@
-// Turns of coordinates: is a step short beside the fastest oscillation that a run shows?
+// Turning points of coordinates: checks whether a step is short compared with the fastest oscillation of a run.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace hamflow {
 /// The fastest oscillation seen.
 struct FastestTurns {
   double period = 0;             // time
-  double dt = 0;                 // the step length with which it was seen
+  double dt = 0;                 // the step size with which it was seen
   std::uint64_t coordinate = 0;  // from 0
 
   template <class Archive>
@@ -21,26 +21,25 @@ struct FastestTurns {
   }
 };
 
-/// Looks at the coordinates at every step of a window of 64 steps, at the start and from 128, 256, 512, ... steps on: a
-/// run of 10^9 steps is interrupted 1600 times. A window of 64 steps shows at least six periods of whatever is too fast
-/// for ten steps a period; slower oscillations are of no interest here. Where the windows are depends on no end of the
-/// run, so that a run that is resumed and made longer sees what one in a single piece sees.
+/// Observes the coordinates at every step of windows of 64 steps, which begin at the steps 0, 128, 256, 512, ...: a run
+/// of 10^9 steps is interrupted 1600 times. A window shows at least six periods of an oscillation with fewer than ten
+/// steps per period; slower oscillations do not matter here. The windows do not depend on the end of the run, so a
+/// resumed and prolonged run sees the same as an uninterrupted one.
 class TurnWatch final : public Observer {
  public:
   static constexpr std::int64_t window = 64;
-  static constexpr std::size_t fewest_periods = 4;      // in a window, to speak of an oscillation
-  static constexpr std::size_t most_coordinates = 512;  // of more every second, third, ... one is watched
-
-  /// @param active false: nothing is watched, as with methods whose steps have sub-steps of their own
+  static constexpr std::size_t fewest_periods = 4;      // in a window, to count as an oscillation
+  static constexpr std::size_t most_coordinates = 512;  // if there are more, every second, third, ... is observed
+  /// @param active false: nothing is observed, e.g. for methods with sub-steps
   explicit TurnWatch(double dt, bool active = true) : dt_(dt), active_(active) {}
 
   bool is_active() const { return active_; }
   double step_length() const { return dt_; }
-  /// The longest step taken, without its sign; 0 before the first.
+  /// The absolute value of the longest step taken; 0 before the first.
   double longest_step() const;
-  /// From this step on with another step length; what was seen before stays.
+  /// Continues from this step with another step size. Earlier results are kept.
   void restart(std::int64_t step, double dt, bool active);
-  /// The fewest steps a period; none where no coordinate was seen to oscillate in 64 steps.
+  /// The oscillation with the fewest steps per period; nullopt if no coordinate oscillated within 64 steps.
   std::optional<FastestTurns> fastest() const;
 
   std::int64_t next_due(std::int64_t step) const override;
@@ -57,18 +56,18 @@ class TurnWatch final : public Observer {
 
   double dt_;
   bool active_;
-  double longest_ = 0;           // of the step lengths before the present one
+  double longest_ = 0;           // longest step before the present step size
   std::int64_t first_ = 0;       // the step from which windows are counted
-  std::int64_t last_ = -1;       // the last one seen
-  std::uint64_t stride_ = 1;     // from one coordinate watched to the next
-  std::uint64_t width_ = 0;      // how many are
+  std::int64_t last_ = -1;       // the last step observed
+  std::uint64_t stride_ = 1;     // distance between observed coordinates
+  std::uint64_t width_ = 0;      // number of observed coordinates
   std::vector<double> samples_;  // of the present window, step by step
   std::optional<FastestTurns> found_;
 };
 
-/// The median time from one turn of a series to the next but one, in samples; none with fewer than four such times.
-/// Twice the mean of two neighbouring times between turns: an eccentric orbit turns unevenly.
-/// @param noise a turn counts once the series has come back by more
+/// The median time from one turn of a series to the second next, in samples; nullopt with fewer than four such times.
+/// An eccentric orbit has unequal times between neighbouring turns, so two of them are taken together.
+/// @param noise a turn is counted if the series has come back by more than this
 std::optional<double> median_period(const std::vector<double>& series, double noise);
 
 }  // namespace hamflow
