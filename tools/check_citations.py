@@ -19,7 +19,7 @@ WITHOUT_KEY = re.compile(rf"\b(?:[A-Z][\w'-]+,? \(?{YEAR}(?=\s*(?:[\])}},;.:\"]|
 BRACKET = re.compile(r"\[([^\[\]]{3,200})\]")
 PLACE = re.compile(r"^spec\b|\b(?:Sect\.|[Ss]ection|ch\.|chapter|p\.|pp\.|table|figure|theorem|def\.|appendix) [\dA-Z(]|^[A-Z][a-z]+\b.*, \(?\d+\.\d")
 DOCUMENT = re.compile(r"(?<![\w*/.-])(?:\.\./)*((?:[\w-]+/)*[\w-]+\.md)\b")
-PATTERNS = ("*.md", "docs/*.md", "bench/*.md", "theses/*.md", "tests/**/*.md", "tools/*", "tests/**/*.py", "theses/tests/*.py", "examples/*.toml",
+PATTERNS = ("*.md", "docs/**/*.md", "bench/*.md", "theses/*.md", "tests/**/*.md", "tools/*", "tests/**/*.py", "theses/tests/*.py", "examples/*.toml",
             "theses/scenarios/*.toml", "dev", "CMakeLists.txt", "*/CMakeLists.txt", "*/*/CMakeLists.txt", "cmake/*")
 UNREAD = ("build", "tests/tools")  # what is built; and the tests of this check, which cite wrongly on purpose
 

@@ -1,4 +1,4 @@
-"""docs/files.md: its Python, run on runs as it says, and its tables, compared with files."""
+"""docs/reference/files.md: its Python, run on runs as it says, and its tables, compared with files."""
 
 import json
 import math
@@ -12,7 +12,7 @@ from decimal import Decimal, localcontext
 
 from command import EXAMPLES, CommandCase
 
-DOCUMENT = (EXAMPLES.parent / "docs" / "files.md").read_text()
+DOCUMENT = (EXAMPLES.parent / "docs/reference/files.md").read_text()
 COMPARE = os.environ["COMPARE_RUNS"]
 # Takes the place of matplotlib, installed or not: it keeps the points that the document's lines
 # draw as a text, in which the test looks for the orbit.

@@ -1,4 +1,4 @@
-"""README.md and docs/*.md as their readers take them: the fenced blocks, with their language and where they stand."""
+"""The fenced blocks of README.md and docs/, with their language and their place."""
 
 import dataclasses
 import os
@@ -24,7 +24,7 @@ class Block:
 
     @property
     def names(self) -> str | None:
-        """The file that the first line names in a comment ("# kepler.toml: ...", "// orbit.cpp"), if it does."""
+        """The file that a comment in the first line names ("# kepler.toml: ...", "// orbit.cpp"), or None."""
         match = re.match(r"(?:#|//) ([\w-]+\.(?:txt|cpp|toml|py))\b", self.text)
         return match[1] if match else None
 
@@ -44,7 +44,7 @@ def blocks_of(file: pathlib.Path) -> list[Block]:
 
 
 def documents() -> list[pathlib.Path]:
-    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def blocks(*languages: str) -> list[Block]:
