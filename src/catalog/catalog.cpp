@@ -176,7 +176,7 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
 
 /// Whether straight-line code is faster than the compiled loop over bodies or particles. It is if it fits into the
 /// first-level instruction cache. Longer code takes a fifth of a nanosecond per operation: less than roots and
-/// quotients in a loop, more than vectorised sums and products (fput). Measured: docs/design.md, Recorded steps.
+/// quotients in a loop, more than vectorised sums and products (fput). Measured: docs/design/recorded-steps.md.
 static bool faster_than_loops(const Program& program) {
   constexpr std::size_t in_first_cache = 3500, share = 40;
   const auto count = [&](auto... kinds) {

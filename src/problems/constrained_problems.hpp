@@ -1,5 +1,5 @@
 // Problems of the catalogue in Cartesian coordinates with constraints. Their Hamiltonians are texts, as for the problem
-// `formula`; only their charts are templates. (docs/design.md, Constraints)
+// `formula`; only their charts are templates. (docs/design/constraints.md)
 #pragma once
 
 #include <functional>

@@ -11,7 +11,7 @@
 
 namespace hamflow {
 
-/// The rule for a coordinate that hits a hard wall (docs/design.md, Walls); `soft`: walls are terms of H.
+/// The rule for a coordinate that hits a hard wall (docs/design/walls.md); `soft`: walls are terms of H.
 enum class WallRule { event, mirror, reject, soft };
 /// The names of the rules, in this order.
 const std::vector<std::string>& wall_rules();

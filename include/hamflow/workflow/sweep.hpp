@@ -83,7 +83,7 @@ class ScenarioSweep {
   /// A report of the members finished so far; writes the folder, if there is one. @throws FileError
   SweepReport report();
   /// A row for each member, finished or not: varied/KEY, member/status, member/steps, final/t,
-  /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/files.md, sweep.h5).
+  /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/reference/files.md, sweep.h5).
   Table members() const;
   /// A row for each point of the members' Poincare sections: section/member, section/t, section/q, section/p.
   Table sections() const;

@@ -1,4 +1,4 @@
-// Options and claims of the methods with adaptive sub-steps. docs/design.md, dop853 and taylor, explains how they
+// Options and claims of the methods with adaptive sub-steps. docs/design/adaptive.md explains how they
 // choose these.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The records of a run as tables. The files of a run have the same columns; docs/files.md describes them.
+// The records of a run as tables. The files of a run have the same columns; docs/reference/files.md describes them.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // Classifies the energy error of one run or an ensemble by statistics of recorded energies: bounded, random walk,
-// linear. docs/design.md (Certificates, reversal, comparison) explains why these statistics are used.
+// linear. docs/design/certificates.md explains why these statistics are used.
 #pragma once
 
 #include <optional>

@@ -80,7 +80,7 @@ class ImplicitMethod {
     }
   }
   /// Drops the guesses after the state was changed. The points of "auto" are kept: found again after every bounce they
-  /// would be the fewest possible, and their energy error has a fixed sign (docs/design.md, Walls).
+  /// would be the fewest possible, and their energy error has a fixed sign (docs/design/walls.md).
   void forget_guesses() { newton_.forget(); }
   Effort effort() const { return effort_; }
   template <class Archive>
