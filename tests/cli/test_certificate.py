@@ -527,7 +527,7 @@ steps = 7031
             self.assertNotIn("certificate", self.hamflow(*command, *off).stderr)
         refused = self.hamflow("sweep", "kepler.toml", "--vary", "run.certificate=true,false", "--out", "none", status=2)
         self.assertIn("which does not change the results of a sweep", refused.stderr)
-        self.assertIn("\n# certificate = false\n", self.hamflow("new", "harmonic").stdout)
+        self.assertIn("\n# certificate = false\n", self.hamflow("new", "harmonic", "--all").stdout)
 
 
 if __name__ == "__main__":

@@ -351,7 +351,7 @@ steps = 10
         self.assertIn("found walls together with constraints", self.refused(self.pendulum(walls)))
 
     def test_lists_and_templates(self):
-        text = self.hamflow("new", "pendulum").stdout
+        text = self.hamflow("new", "pendulum", "--all").stdout
         self.assertNotIn("rattle", text.split("[method]")[0])
         shown = self.hamflow("show", "pendulum").stdout
         for word in ("cartesian", "dimension", "constraint_form", "multiplier"):
@@ -359,7 +359,7 @@ steps = 10
         self.assertIn("constraints", self.hamflow("show", "rattle").stdout)
         self.assertIn("rattle4", self.hamflow("list", "methods", "--all").stdout)
         self.assertIn("constraints", self.hamflow("show", "formula").stdout)
-        made = self.hamflow("new", "double-pendulum", "--coordinates", "cartesian").stdout
+        made = self.hamflow("new", "double-pendulum", "--coordinates", "cartesian", "--all").stdout
         self.assertLess(self.summary(self.write("new.toml", made))["constraints"]["position"], 64 * EPSILON)
 
     def test_the_example(self):

@@ -109,7 +109,7 @@ class Frame(CommandCase):
     def test_declared(self):
         for name in ("n-body", "solar-system"):
             self.assertIn("frame", self.hamflow("show", name).stdout)
-            self.assertIn("frame = ", self.hamflow("new", name).stdout)
+            self.assertIn("frame = ", self.hamflow("new", name, "--all").stdout)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""hamflow new: every problem and every variant gives a scenario that runs as it is, explains every key, and whose other
-starts can be chosen by uncommenting them."""
+"""hamflow new: every problem and every variant gives a short scenario that runs as it is; with --all it explains every key,
+and other starts can be chosen by uncommenting them."""
 
 import json
 import re
@@ -20,7 +20,7 @@ class New(CommandCase):
         count = 0
         for name, variant, options in self.variants():
             with self.subTest(problem=name, **variant):
-                text = self.hamflow("new", name, *options).stdout
+                text = self.hamflow("new", name, *options, "--all").stdout
                 self.write("new.toml", text)
                 s = self.summary("new.toml")
                 self.assertEqual((s["status"], s["problem"]), ("done", name))
@@ -33,11 +33,38 @@ class New(CommandCase):
                 count += 1
         self.assertGreaterEqual(count, 20)
 
+    def test_the_short_form_has_what_is_set_alone_and_runs_the_same(self):
+        for name, variant, options in self.variants():
+            with self.subTest(problem=name, **variant):
+                short = self.hamflow("new", name, *options).stdout
+                whole = self.hamflow("new", name, *options, "--all").stdout
+                self.assertLessEqual(len(short.splitlines()), 40 if name == "gas" else 32)
+                for line in short.splitlines():
+                    self.assertLessEqual(len(line), 120)
+
+                def keys(text):
+                    return [line.split("  #")[0].rstrip() for line in text.splitlines() if line and not line.startswith("#")]
+
+                self.assertEqual(keys(short), keys(whole))
+                self.assertIn(f"hamflow new {name} --all", " ".join(short.split()))
+
+    def test_a_method_can_be_asked_for(self):
+        text = self.hamflow("new", "henon-heiles", "--method", "cg(2,6)").stdout
+        self.assertIn('name = "cg"', text)
+        self.assertRegex(text, r"(?m)^degree = 2\b")
+        self.assertRegex(text, r"(?m)^quadrature = 6\b")
+        self.write("new.toml", text)
+        s = self.summary("new.toml", "--set", "run.steps=100")
+        self.assertEqual((s["method"], s["method_options"]["degree"]), ("cg", 2))
+        done = self.hamflow("new", "double-pendulum", "--method", "stv4", status=2)
+        self.assertIn("--method: error: ", done.stderr)
+        self.assertIn("did you mean kahan-li8?", self.hamflow("new", "pendulum", "--method", "kahan-li9", status=2).stderr)
+
     def test_every_key_is_explained(self):
         seen = set()
         for name, variant, options in self.variants():
             with self.subTest(problem=name, **variant):
-                text = self.hamflow("new", name, *options).stdout
+                text = self.hamflow("new", name, *options, "--all").stdout
                 paragraphs = re.split(rf"(?m)^(?={name}(?: with |$))", self.hamflow("show", name).stdout)
                 head = ", ".join(f"{key} = {value}" if value.isdigit() else f'{key} = "{value}"' for key, value in variant.items())
                 (shown,) = [p for p in paragraphs if p.startswith(f"{name} with {head}" if head else name + "\n")]
@@ -61,7 +88,7 @@ class New(CommandCase):
         return lines
 
     def test_the_other_form_of_lennard_jones_is_that_of_the_lattice(self):
-        lines = self.hamflow("new", "gas").stdout.splitlines()
+        lines = self.hamflow("new", "gas", "--all").stdout.splitlines()
         (at,) = [i for i, line in enumerate(lines) if line.startswith("# sigma = ")]
         for both in (False, True):
             chosen = [line[2:] if i == at or (both and line.startswith("# epsilon = ")) else line for i, line in enumerate(lines)]
@@ -73,7 +100,7 @@ class New(CommandCase):
     def test_every_other_start_can_be_chosen(self):
         tried = 0
         for name, variant, options in self.variants():
-            lines = self.hamflow("new", name, *options).stdout.splitlines()
+            lines = self.hamflow("new", name, *options, "--all").stdout.splitlines()
             for i, line in enumerate(lines):
                 if not re.match(r"# (orbit|initial) = \{ (?!q = \[\.)", line):
                     continue
@@ -101,7 +128,7 @@ class New(CommandCase):
 
     def test_a_key_that_is_not_set_can_be_set_as_it_stands(self):
         for name in ("henon-heiles", "central-force", "formula", "gas"):
-            lines = self.hamflow("new", name).stdout.splitlines()
+            lines = self.hamflow("new", name, "--all").stdout.splitlines()
             for i, line in enumerate(lines):
                 if name == "gas" and line.startswith(("# lyapunov", "# eigenvalues", "# section", "# events")):
                     continue
@@ -118,7 +145,7 @@ class New(CommandCase):
                     self.summary("chosen.toml", "--set", "run.steps=1")
 
     def test_what_methods_share_is_said_once(self):
-        text = self.hamflow("new", "henon-heiles").stdout
+        text = self.hamflow("new", "henon-heiles", "--all").stdout
         self.assertEqual(text.count("# step_control = "), 2)  # reversible, adaptive
         self.assertEqual(text.count("# max_iterations = "), 1)
         at = text.index('name = "stv4"')
@@ -157,7 +184,7 @@ class New(CommandCase):
 
     def test_walls_that_are_proposed_enclose_the_start(self):
         for name, _, options in self.variants():
-            lines = self.hamflow("new", name, *options).stdout.splitlines()
+            lines = self.hamflow("new", name, *options, "--all").stdout.splitlines()
             for i, line in enumerate(lines):
                 if name == "gas" or not line.startswith("# walls = "):
                     continue
@@ -167,10 +194,10 @@ class New(CommandCase):
 
     def test_only_what_the_problem_takes_is_proposed(self):
         for name in ("t-tube", "double-pendulum", "pendulum"):
-            text = self.hamflow("new", name, "--coordinates", "cartesian").stdout
+            text = self.hamflow("new", name, "--coordinates", "cartesian", "--all").stdout
             self.assertNotIn("lyapunov = ", text)
             self.assertNotIn("eigenvalues = ", text)
-        self.assertIn("lyapunov = ", self.hamflow("new", "pendulum").stdout)
+        self.assertIn("lyapunov = ", self.hamflow("new", "pendulum", "--all").stdout)
 
     def test_choices_of_several_problems(self):
         told = self.hamflow("new", "--help").stdout

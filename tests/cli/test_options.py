@@ -186,7 +186,7 @@ class Options(CommandCase):
             for key in keys:
                 self.assertRegex(text, rf"(?m)^ +{key} +\[", name)
         for method in ("cg", "taylor", "dop853"):
-            self.assertIn(f"# Options of {method}:", self.hamflow("new", "pendulum").stdout)
+            self.assertIn(f"# Options of {method}:", self.hamflow("new", "pendulum", "--all").stdout)
 
 
 if __name__ == "__main__":
