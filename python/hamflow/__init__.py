@@ -25,7 +25,7 @@ from ._errors import Error, FileError, Rejection, StepFailed
 from ._problem import Problem
 from ._run import Reversal, Run, States, open, reverse, run
 from ._scenario import Scenario
-from ._show import Shown, show
+from ._show import Shown, cite, show
 from ._simulation import Simulation, Trajectory
 from ._sweep import Sweep, propagate, sweep
 from ._trace import acos, asin, atan, atan2, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
@@ -35,8 +35,8 @@ __version__: str = _core.version
 
 __all__ = ["Compare", "Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario",
            "Shown", "Simulation", "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "Verification",
-           "acos", "asin", "atan", "atan2", "certify", "certify_step", "compare", "convert", "cos", "cosh", "exp",
-           "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "sweep",
+           "acos", "asin", "atan", "atan2", "certify", "certify_step", "cite", "compare", "convert", "cos", "cosh",
+           "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "sweep",
            "tan", "tanh", "verify"]
 
 

@@ -6,6 +6,7 @@ import html
 import os
 
 from . import _core, _html
+from ._run import Run
 from ._scenario import Scenario
 
 
@@ -56,3 +57,37 @@ def show(name: str | os.PathLike[str] | Scenario, /) -> Shown:
     if typed.endswith(".toml"):
         return Shown(typed, *_core.show_scenario(Scenario.load(typed)._core))
     return Shown(typed, *_core.show(typed))
+
+
+def cite(cited: str | os.PathLike[str] | Scenario | Run, /) -> str:
+    """Returns the works behind a method, a problem, a scenario or a run, as BibTeX.
+
+    Parameters
+    ----------
+    cited : str, Scenario, Run, or name of a TOML file
+        Such as "kahan-li8", "cg(2,6)", "henon-heiles", or what `run` and `open` return.
+
+    Returns
+    -------
+    str
+        One entry for hamflow, then one for each work.
+
+    Raises
+    ------
+    Error
+        If nothing has that name; the message proposes the nearest.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> [line for line in hf.cite("verlet").splitlines() if line.startswith("@")][0]
+    '@software{hamflow,'
+    """
+    if isinstance(cited, Run):
+        return _core.cite_scenario(cited.scenario._core)
+    if isinstance(cited, Scenario):
+        return _core.cite_scenario(cited._core)
+    typed = os.fspath(cited)
+    if typed.endswith(".toml"):
+        return _core.cite_scenario(Scenario.load(typed)._core)
+    return _core.cite(typed)

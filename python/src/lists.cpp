@@ -5,6 +5,7 @@
 #include "hamflow/formula/tex.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/workflow/catalogue_text.hpp"
+#include "hamflow/workflow/cite.hpp"
 
 namespace py = pybind11;
 
@@ -58,6 +59,12 @@ void bind_lists(py::module_& m) {
     const CatalogueText found = description_of(scenario);
     return py::make_tuple(found.text, found.formulas);
   });
+  m.def("cite", [](const std::string& name) {
+    const std::string found = bibtex_of(name);
+    if (found.empty()) throw Error(not_in_catalogue(name));
+    return found;
+  });
+  m.def("cite_scenario", [](const Scenario& scenario) { return bibtex_of(scenario); });
   m.def("tex", &tex_of);
 }
 

@@ -108,6 +108,7 @@ CALLS = {
     "Problem.at: energy": lambda x: hf.Scenario(problem=PENDULUM.at(q=[1], p=["+"], energy=x), method="stv4", run=SHORT),
     "methods": lambda x: hf.methods(x),
     "show": lambda x: hf.show(x),
+    "cite": lambda x: hf.cite(x),
     "Simulation": lambda x: hf.Simulation(x, dt=0.1),
     "Simulation: method": lambda x: simulation(method=x),
     "Simulation: q": lambda x: simulation(q=x),

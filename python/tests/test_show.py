@@ -18,6 +18,19 @@ def test_the_text_is_that_of_the_command(name):
     assert shown.text == told == str(shown) and "\n" not in repr(shown) and "<pre>" in shown._repr_html_()
 
 
+@pytest.mark.parametrize("name", ["cg(2,6)", "kahan-li8", "henon-heiles"])
+def test_works_are_those_of_the_command(name):
+    told = subprocess.run([HAMFLOW, "cite", name], check=True, capture_output=True, text=True).stdout
+    assert hf.cite(name) == told and told.startswith("@software{hamflow")
+
+
+def test_works_behind_a_run():
+    s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 5})
+    assert hf.cite(hf.run(s)) == hf.cite(s) and "{Yoshida1990" in hf.cite(s)
+    with pytest.raises(hf.Error, match="did you mean stv4"):
+        hf.cite("stv5")
+
+
 def test_scenarios_are_shown():
     s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.1, "steps": 5})
     assert "start: q = [1]" in hf.show(s).text
