@@ -1,6 +1,6 @@
 // The steps of one simulation that are solved by iteration, by their programs: Newton's decisions (newton.hpp) around
 // recorded corrections (recorded_iteration.hpp), or around stages in lanes (stages_in_lanes.hpp), with the bits of the
-// simulation behind virtual calls. A step that leaves their straight road is for the simulation itself.
+// simulation behind virtual calls. All other steps are left to the simulation.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ class IterationRunner {
   IterationRunner(RecordedIteration recorded, const NewtonOptions& options, std::optional<StagesInLanes> stages);
 
   /// Takes steps from a frame with a first guess, until a step must be left to the simulation.
-  /// @return how many were taken; the frame is behind them   @param effort to which their work is added   @param doubt
-  /// of Newton: good guesses still wanted, 0 unless counts_guess_failures()
+  /// @return the number of steps taken; the frame is the one after them @param effort to which their work is added
+  /// @param guess_failures of Newton; must be 0 unless counts_guess_failures()
   std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& guess_failures);
   /// Whether it can take steps that begin from the last state; this is so for stages, whose result needs no check.
   bool counts_guess_failures() const { return stages_.has_value(); }
