@@ -186,10 +186,11 @@ void from_exact_text(const std::string& text, Mp& x) {
     bits = std::stol(text.substr(0, space));
   } catch (const std::exception&) {
   }
-  if (space == std::string::npos || bits < MPFR_PREC_MIN || bits > 1000000) throw Error("saved bytes hold no number");
+  if (space == std::string::npos || bits < MPFR_PREC_MIN || bits > 1000000)
+    throw Error("the saved bytes hold no number");
   mpfr_set_prec(x.value.raw(), bits);
   if (mpfr_set_str(x.value.raw(), text.c_str() + space + 1, 0, MPFR_RNDN) != 0) {
-    throw Error("saved bytes hold no number");
+    throw Error("the saved bytes hold no number");
   }
 }
 

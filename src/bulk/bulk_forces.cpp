@@ -57,12 +57,12 @@ BulkSet chosen(BulkSet set) {
 }
 
 const bulk::Kernels& kernels_of(BulkSet set) {
-  if (!BulkForces::has(set)) throw Error("bulk forces: this machine does not have the instructions asked for");
+  if (!BulkForces::has(set)) throw Error("bulk forces: this machine does not have the requested instruction set");
   if (set == BulkSet::avx512) return bulk::avx512;
   return set == BulkSet::avx2 ? bulk::avx2 : bulk::sse2;
 }
 
-/// The law in the lengths of the coordinates, with what a row's sums lack.
+/// The law in units of the coordinates, with the factors of the sums of a row.
 struct Scaled {
   bulk::Law law{};
   double of_force;   // times c d
@@ -165,8 +165,8 @@ class BulkForces::Workspace {
     if (lists()) prepare_lists();
   }
 
-  /// Where the potential is asked for after every so many forces, at the positions of the last of them, it is computed
-  /// with that force: whoever watches the energy pays no second pass.
+  /// If the potential is requested regularly after a number of forces, at the positions of the last force, it is
+  /// computed together with that force, so that monitoring the energy needs no second pass.
   void force(const double* q, double* f) {
     const std::lock_guard turn(busy_);
     ++forces_since_potential_;
@@ -231,7 +231,7 @@ class BulkForces::Workspace {
     knows_ = true;
     return known_;
   }
-  /// The sum of |q|, in partial sums, which do not wait for each other.
+  /// The sum of |q|, in independent partial sums.
   double size_of(const double* q) const {
     double sums[8] = {};
     const std::size_t size = system_.space * system_.particles;
@@ -242,7 +242,7 @@ class BulkForces::Workspace {
     for (; i < size; ++i) sums[0] += std::abs(q[i]);
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
   }
-  /// Positions that are no finite numbers stand in no cell; their forces are none.
+  /// Positions that are not finite belong to no cell; their forces are NaN.
   double nothing(const double*, double* f) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     std::fill(f, f + system_.space * system_.particles, none);
@@ -276,7 +276,7 @@ class BulkForces::Workspace {
     const bulk::SumRows sum = kernels_->all[static_cast<std::size_t>(system_.law)][space - 2][with_energy];
     std::fill(total_.data(), total_.data() + space * x_room_, 0.0);
     const auto sum_block = [&](std::size_t b, double* forces) {
-      const std::size_t from = row_blocks_[b] / 16 * 16;  // a block adds nothing to rows before its own
+      const std::size_t from = row_blocks_[b] / 16 * 16;  // a block adds nothing to earlier rows
       for (std::size_t k = 0; k < space; ++k) std::fill(forces + k * x_room_ + from, forces + (k + 1) * x_room_, 0.0);
       return sum(rows_, row_blocks_[b], row_blocks_[b + 1], {}, {forces, x_room_});
     };
@@ -286,7 +286,7 @@ class BulkForces::Workspace {
         for (std::size_t i = row_blocks_[b]; i < system_.particles; ++i) total[i] += forces[k * x_room_ + i];
       }
     };
-    // The blocks' forces are added in their order; one thread does so while they are near.
+    // The forces of blocks are added in order, by one thread while they are in its cache.
     const std::size_t blocks = row_blocks_.size() - 1;
     const std::size_t size = space * x_room_;
     if (team_) {
@@ -305,7 +305,8 @@ class BulkForces::Workspace {
     }
     counts_.pairs += system_.particles * (system_.particles - 1) / 2;
   }
-  /// Rows of about as many pairs in each block, whatever the number of threads: the forces of a block are summed apart.
+  /// Divides rows into blocks with about equal numbers of pairs, independently of the number of threads, because the
+  /// forces of each block are summed separately.
   void divide_rows() {
     constexpr std::size_t blocks = 16;
     const std::size_t n = system_.particles;
@@ -338,7 +339,7 @@ class BulkForces::Workspace {
     counts_.pairs += pairs / 2;
   }
 
-  /// The rows' energies in eight partial sums too. With lists each pair stands in two rows.
+  /// Sums the energies of rows in eight partial sums. With lists each pair is in two rows.
   double total() const {
     double sums[8] = {};
     for (std::size_t i = 0; i < system_.particles; ++i) sums[i % 8] += energy_[i];
@@ -368,7 +369,7 @@ class BulkForces::Workspace {
   double known_ = 0;
   bool knows_ = false;  // of the positions known_at_; else these are those of the last force
   std::uint64_t forces_since_potential_ = 0;
-  std::uint64_t usual_forces_ = 0;  // before the potential is asked for
+  std::uint64_t usual_forces_ = 0;  // before the potential is requested
   Counts counts_;
 };
 

@@ -16,7 +16,7 @@ typedef long long NativeBits __attribute__((vector_size(HAMFLOW_NATIVE_BYTES)));
 constexpr int lanes = HAMFLOW_NATIVE_BYTES / 8;
 constexpr int natives = 8 / lanes;
 
-/// Long computations go part by part: all eight at once need more registers than there are.
+/// Long computations run part by part, because all eight numbers need too many registers.
 template <int N>
 struct Group {
   Native v[N];
@@ -80,7 +80,7 @@ HAMFLOW_INLINE Group<N> root(const Group<N>& a) {
 #endif
   return r;
 }
-/// 0 where x is below it. NaN stays.
+/// max(x, 0); keeps NaN.
 template <int N>
 HAMFLOW_INLINE Group<N> not_below_zero(const Group<N>& x) {
   Group<N> r;
@@ -117,7 +117,7 @@ HAMFLOW_INLINE unsigned below(const Eight& x, const Eight& limit) {
 #endif
 }
 
-/// Which numbers of a part count.
+/// A mask of the numbers of a part that count.
 #if HAMFLOW_NATIVE_BYTES == 64
 using Mask = __mmask8;
 #else

@@ -1,5 +1,5 @@
-// What the kernels of all instruction sets share: plain memory, filled by workspace.cpp. Nothing here may be an inline
-// function: of two copies compiled for different instruction sets the linker would keep either.
+// Data of the kernels of all instruction sets: plain memory, filled by workspace.cpp. There must be no inline function
+// here, because the linker would keep one of several copies compiled for different instruction sets.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct Law {
   double turn_in_c;  // of phi s'(x) in units of c
 };
 
-/// Particles stand in slots, in the order of cells; without lists in their own order.
+/// Particles are stored in slots, in the order of cells; without lists in the order of their numbers.
 struct Rows {
   const double* at = nullptr;  // with lists: x, y, z, w of each slot
   const double* x[3] = {};     // without: coordinate by coordinate, up to a multiple of eight
@@ -79,7 +79,7 @@ struct Kernels {
 extern const Kernels sse2;
 extern const Kernels avx2;
 extern const Kernels avx512;
-/// Those with the widest registers of this machine.
+/// The kernels with the widest registers of this machine.
 const Kernels& widest();
 
 }  // namespace hamflow::bulk

@@ -1,5 +1,5 @@
-// The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table.
-// Everything is of this file alone: an inline function of a library, compiled here, could be linked elsewhere.
+// The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table. Everything is local to
+// this file, because an inline function of a library that is compiled here could be linked into other code.
 #include <immintrin.h>
 
 #include "kernel.hpp"
@@ -245,8 +245,8 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
   return 0;
 }
 
-/// The differences of those in range of one row, and their w, moved together. Called once a row: within the kernels it
-/// would be compiled a hundred times.
+/// Packs the differences of the neighbours in range of one row, and their w. It is a function called once per row,
+/// because within the kernels it would be compiled a hundred times.
 template <bool Weighs, int Space, bool Images>
 [[gnu::noinline]] std::size_t pack(const Rows& rows, std::size_t i, const std::uint32_t* slots, std::size_t count,
                                    double* to, std::size_t stride) {

@@ -1,6 +1,6 @@
-// The pair laws on a register of pairs at once, and what a cut-off makes of them. Included by kernel_body.hpp.
+// The pair laws on a register of pairs at once, and their cut-offs. Included by kernel_body.hpp.
 
-/// What a pair adds: c times the difference of positions to the force, phi to the energy.
+/// The contribution of a pair: c times the difference of positions to the force, phi to the energy.
 struct Pair {
   Part c;
   Part phi;

@@ -10,14 +10,15 @@ namespace hamflow::bulk {
 
 namespace {
 constexpr std::size_t rows_each = 64;  // of a block, at least
-/// What rounding could move across a limit.
+/// Margin for rounding at limits.
 constexpr double margin = 1e-9;
 constexpr std::size_t worth_sharing = 4096;
 
 /// The nearest whole number of |x| < 2^51, as the kernels round.
 double nearest(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
 
-/// Later lists may be longer: layers of particles cross into the cells of a block. What is never used costs nothing.
+/// Reserves extra space, because later lists may be longer when particles move into the cells of a block. Unused memory
+/// costs nothing.
 void make_room(std::size_t size, std::vector<std::uint32_t>& list) {
   if (list.capacity() < size + size / 2) list.reserve(2 * size + 64);
 }
@@ -63,7 +64,7 @@ inline double Neighbours::wrapped(double x, std::size_t k) const {
   return x - nearest(x / edge) * edge;
 }
 
-/// Cells not smaller than the reach of the lists, and not many more than particles.
+/// Chooses cells that are not smaller than the range of the lists, and not many more than particles.
 void Neighbours::lay_cells(const double* q) {
   const std::size_t space = box_.space;
   double most = 1;
@@ -95,7 +96,7 @@ void Neighbours::lay_cells(const double* q) {
   for (std::size_t k = space; k < 3; ++k) cells_[k] = 1;
 }
 
-/// By counting, so that within a cell numbers ascend.
+/// Sorts by counting, so that numbers ascend within a cell.
 void Neighbours::sort_into_cells(const double* q) {
   const std::size_t space = box_.space;
   const std::size_t cells = cells_[0] * cells_[1] * cells_[2];
@@ -105,7 +106,7 @@ void Neighbours::sort_into_cells(const double* q) {
     for (std::size_t k = space; k-- > 0;) {
       const double place = (wrapped(q[i * space + k], k) - corner_[k]) / cell_edge_[k];
       const double last = static_cast<double>(cells_[k] - 1);
-      // Where all stand at one coordinate the quotient is none.
+      // If all particles have the same coordinate, the quotient is NaN.
       cell = cell * cells_[k] + (place > 0 ? static_cast<std::size_t>(std::min(place, last)) : 0);
     }
     cell_of_[i] = static_cast<std::uint32_t>(cell);
@@ -121,7 +122,7 @@ void Neighbours::sort_into_cells(const double* q) {
   cell_begins_[0] = 0;
 }
 
-/// As many cells to a block as hold some rows on average. Blocks keep their memory.
+/// Chooses the number of cells per block such that a block has several rows on average. Blocks keep their memory.
 void Neighbours::divide_rows() {
   const std::size_t cells = cell_begins_.size() - 1;
   const std::size_t each = std::min(cells, rows_each * cells / particles_ + 1);
@@ -231,7 +232,7 @@ void Neighbours::gather(std::size_t cell, ThreadScratch& scratch) const {
 }
 
 /// The rows of a block follow each other like the slots: in a cell both are in the order of numbers. They are written
-/// at the scratch, so that a block gets its memory at once and leaves none behind that it has outgrown.
+/// to the scratch memory of the thread first, so that a block is allocated once with the right size.
 void Neighbours::find_rows(Block& block, ThreadScratch& scratch, const FindNear* near) const {
   std::vector<std::uint32_t>& rows = scratch.rows;
   std::size_t used = 0;
@@ -267,7 +268,7 @@ void Neighbours::find_rows(Block& block, ThreadScratch& scratch, const FindNear*
   block.slots.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(used));
 }
 
-/// For what stands in and around any cell.
+/// Resizes the scratch memory for the particles in and around any cell.
 void Neighbours::clear_scratch() {
   std::size_t most = 0;
   for (std::size_t c = 0; c + 1 < cell_begins_.size(); ++c) {
@@ -283,7 +284,7 @@ void Neighbours::clear_scratch() {
   }
 }
 
-/// Every scratch has room for the rows of any block, and for longer ones later, as blocks have.
+/// Resizes the scratch memory for the rows of any block, with extra space as in blocks.
 void Neighbours::enlarge_scratch() {
   std::size_t most = 0;
   for (const Block& block : blocks()) most = std::max(most, block.slots.size());

@@ -1,5 +1,5 @@
-// Lists of neighbours: of each particle those within the cut-off and a skin, in the order of their numbers. They serve
-// until two particles together have moved by the skin.
+// Neighbour lists: for each particle the particles within the cut-off plus a skin, in the order of their numbers. They
+// are valid until two particles together have moved by the skin.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ class Neighbours {
   void prepare(const Box& box, std::size_t particles, std::size_t workers);
   /// Copies positions to their slots. @return whether the lists still serve them; never before the first ones are made
   bool place(const double* q, ThreadTeam* team);
-  /// Makes the lists anew and places. @param near without and with images
+  /// Makes new lists and places the particles. @param near without and with images
   void make(const double* q, const FindNear* near, ThreadTeam* team);
 
   std::span<const Block> blocks() const { return {blocks_.data(), used_blocks_}; }
@@ -65,7 +65,7 @@ class Neighbours {
   void set_strengths(const std::vector<double>& strengths);
 
  private:
-  /// Of one worker.
+  /// The scratch memory of one thread.
   struct ThreadScratch {
     // The particles in and around a cell, in the order of their numbers.
     Numbers x[3];

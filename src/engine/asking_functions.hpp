@@ -1,4 +1,4 @@
-// The functions of a problem that ask, before each evaluation, whether somebody wants to stop (src/engine/way_out.hpp).
+// The functions of a problem with a check for a requested stop before each evaluation (src/engine/way_out.hpp).
 #pragma once
 
 #include <memory>

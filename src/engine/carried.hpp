@@ -1,6 +1,6 @@
-// What a step carries to the next one, found by walking over the archive() of a state, a probe and a method. The walk
-// meets the fields in one order, in the recorded step, whose numbers are traces, and in the simulation, whose numbers
-// are doubles: the k-th number here is the k-th there.
+// The data that a step passes to the next one, found by visiting the archive() of a state, a probe and a method. The
+// fields have the same order in the recorded step, whose numbers are traces, and in the simulation, whose numbers are
+// doubles: the k-th number corresponds to the k-th.
 #pragma once
 
 #include <bit>
@@ -57,7 +57,7 @@ void for_each_carried(Leaf&& leaf, Objects&... objects) {
   walk(objects...);
 }
 
-/// What becomes of a number from step to step.
+/// How a number changes from step to step.
 struct CarriedField {
   enum class Kind : std::uint8_t {
     carried,  // a value of the program
@@ -68,7 +68,7 @@ struct CarriedField {
   std::uint64_t bits = 0;
 };
 
-/// The bits of a number that is no trace.
+/// The bits of a number that is not a trace.
 template <class T>
 std::uint64_t field_bits(const T& x) {
   if constexpr (std::is_same_v<T, double>) {
@@ -79,8 +79,8 @@ std::uint64_t field_bits(const T& x) {
   }
 }
 
-/// Reads the carried numbers of a simulation's objects. @return false where they are not as recorded: a kept number
-/// differs, or there are more or fewer
+/// Reads the carried numbers of a simulation's objects. @return false if they differ from the recording: a kept number,
+/// or the count
 template <class... Objects>
 bool gather(std::span<const CarriedField> fields, std::span<double> values, Objects&... objects) {
   std::size_t at = 0;
@@ -107,7 +107,7 @@ bool gather(std::span<const CarriedField> fields, std::span<double> values, Obje
   return fits && at == fields.size();
 }
 
-/// Writes them back after so many steps.
+/// Writes them back after the given number of steps.
 template <class... Objects>
 void scatter(std::span<const CarriedField> fields, std::span<const double> values, std::int64_t steps,
              Objects&... objects) {

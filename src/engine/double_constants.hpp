@@ -1,10 +1,10 @@
-// Simulations beyond double whose H has the constants of a run in double: a literal 1.3, m omega^2 and 1/m with their
-// roundings. A reference solution is then one of the H that the run has.
+// Simulations beyond double with the rounded constants of a run in double: a literal 1.3, m omega^2 and 1/m. A
+// reference solution then belongs to the same H as the run.
 #pragma once
 
 namespace hamflow {
 
-/// Problems that are made in this thread, until the scope ends, compute their constants in double.
+/// While this object exists, problems made in this thread compute their constants in double.
 class DoubleConstants {
  public:
   DoubleConstants() : before_(in_use) { in_use = true; }

@@ -1,9 +1,9 @@
-// The equations of a step of cg(1) as programs (detail/numerics/program.hpp): what Newton asks of natural.hpp and
-// general.hpp at one step, recorded with traces for a system of few coordinates. The functions of the problem at all
-// Gauss points, their sums and the tangent are one straight line in machine code; what gradient and Hessian share is
-// computed once.
+// The equations of a step of cg(1) as programs (detail/numerics/program.hpp): the functions of natural.hpp and
+// general.hpp that Newton needs, recorded with traces for a system of few coordinates. The functions of the problem at
+// all Gauss points, their sums and the Jacobian are one straight-line program in machine code; common subexpressions of
+// gradient and Hessian are computed once.
 //
-// Numbers stand in a frame, from which every program reads and into which it writes:
+// The numbers are in a frame, which every program reads and writes:
 //     h, q0, p0, x, correction | residual, lost, tangent | increments of q and p | three numbers | the element's point
 #pragma once
 
@@ -21,13 +21,13 @@
 
 namespace hamflow {
 
-/// The rule of plain numbers, rounded to them.
+/// The Gauss rule for traces, rounded like that for doubles.
 template <>
 inline const GaussRule<Trace<double>>& gauss_rule<Trace<double>>(int s) {
   static thread_local std::map<int, GaussRule<Trace<double>>> rules;
   return rules.try_emplace(s, detail::rounded<Trace<double>>(gauss_rule<double>(s))).first->second;
 }
-/// For products whose halves do not overflow, which every run of the recording checks.
+/// Valid for products whose halves do not overflow, which every run of the recording checks.
 inline Trace<double> product_error(const Trace<double>& a, const Trace<double>& b, const Trace<double>& product) {
   if (product.is_constant()) return product_error(a.value, b.value, product.value);
   static constexpr double splitter = (1 << 27) + 1;  // as in exact_product.hpp
@@ -60,14 +60,14 @@ struct ElementFrame {
   std::size_t point() const { return number() + 3; }
 };
 
-/// One of the programs, with the evaluations that it stands for. The first times it is not recorded but computed, with
-/// the same bits: a short run, one of many in a sweep, is over before a program would be worth its making.
+/// One of the programs, with its count of evaluations. The first times it is computed instead of recorded, with the
+/// same bits, because a short run, such as one of many in a sweep, ends before recording pays off.
 class ElementProgram {
  public:
   using Compute = std::function<void(std::span<double>, Effort&)>;
   using Record = std::function<Program(Effort&)>;
   ElementProgram(Compute compute, Record record) : compute_(std::move(compute)), record_(std::move(record)) {}
-  /// @return whether every number came out as the element computes it; if not, none did
+  /// @return true if all numbers are those of the element; otherwise none is valid
   bool run(std::span<double> frame, Effort& effort) const {
     const Made* const made = made_.load(std::memory_order_acquire);
     if (made == nullptr && runs_.fetch_add(1, std::memory_order_relaxed) < worth_it) {
@@ -108,7 +108,7 @@ class ElementProgram {
 /// The programs of one quadrature.
 struct ElementPrograms {
   ElementProgram predicted;  // x from (h, q0, p0)
-  ElementProgram started;    // x from a memory, which stands in x
+  ElementProgram started;    // x from a memory, which is in x
   ElementProgram evaluated;  // residual, lost, tangent, point and one number, the size of the free_displacement, at x
   ElementProgram taken;      // x and increments at x
   ElementProgram corrected;  // the same at x + correction
@@ -118,7 +118,7 @@ struct ElementPrograms {
 
 namespace detail {
 
-/// What the programs of an element do to a frame, with plain or with traced numbers.
+/// The programs of an element as functions of a frame, with plain or traced numbers.
 /// @tparam P a problem of dynamic size   @tparam natural H = p^T M^-1 p/2 + V(q)
 template <class P, bool natural>
 class ElementOnFrame {
@@ -211,7 +211,7 @@ class ElementOnFrame {
       put(at.noise, f, i += frame_.m);
     }
   }
-  /// What evaluate() has left.
+  /// The result of evaluate().
   Point point(const Frame& f) const {
     Point at;
     std::size_t i = frame_.point();

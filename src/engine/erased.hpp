@@ -1,4 +1,4 @@
-// Between the typed problems and the methods that are compiled once for each number type (detail/run/any_problem.hpp).
+// Connects typed problems with the methods that are compiled once for each number type (detail/run/any_problem.hpp).
 #pragma once
 
 #include <memory>
@@ -52,13 +52,13 @@ struct ErasedRun {
   Vector<R, dynamic> q;
   Vector<R, dynamic> p;
   R h;
-  std::shared_ptr<const StepWalls> walls{};  // that a recorded step has to stay within
+  std::shared_ptr<const StepWalls> walls{};  // a recorded step must stay within these walls
 };
-/// Of the request the method and the arithmetic count. Defined for each number type in a file of its own.
+/// Uses only the method and the arithmetic of the request. Each number type has its definition in a separate file.
 template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request);
 
-/// What a StepMap computes in: double for structure, more digits for orders.
+/// The number types of a StepMap: double for structure, more digits for orders.
 struct ErasedProblem {
   ErasedFunctions<double> in_double;
   ErasedFunctions<long double> in_long;
@@ -74,13 +74,13 @@ struct ErasedProblem {
     }
   }
 };
-/// Of the request the method and the walls count.
+/// Uses only the method and the walls of the request.
 std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Request& request);
 
-/// What the catalogue has of one problem that is compiled with a light optimisation, beside its kernels.
+/// The part of a catalogue entry that is compiled with light optimisation, apart from the kernels.
 struct ErasedEntry {
-  ProblemEntry facts;  // all but how it is simulated
-  /// In any arithmetic of `extended`, and in double for methods that have no typed kernel.
+  ProblemEntry facts;  // the entry without simulations
+  /// The simulation in an arithmetic of `extended`, or in double for methods without a typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   std::function<std::unique_ptr<StepMap>(const Request&, std::size_t size)> step_map;
   /// The change of coordinates to the reference chart of the problem and back, in an arithmetic of `extended`; empty in

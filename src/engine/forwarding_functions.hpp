@@ -1,4 +1,4 @@
-// Functions of a problem behind virtual calls that are those of another one, but for what a class derived from these
+// Functions of a problem behind virtual calls that forward to another problem, except those that a derived class
 // overrides: walls (src/walls/walled_functions.hpp), sums over pairs (src/gas/bulk_gas.cpp).
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// Motion at several points is asked for one by one, of the class derived.
+/// Functions at several points call the derived class point by point.
 template <class S>
 class ForwardingFunctions : public Functions<S> {
  public:

@@ -1,6 +1,6 @@
-// A simulation by name in double whose steps are solved by iteration, and which can hand them over to lanes
-// (recorded_iteration.hpp). It is the one behind virtual calls, and where many steps are asked for, their programs take
-// them (iteration_runner.hpp), with the same bits.
+// A simulation by name in double whose steps are solved by iteration and can be taken in lanes
+// (recorded_iteration.hpp). It is the simulation behind virtual calls; if many steps are requested, programs take them
+// (iteration_runner.hpp), with the same bits.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   using Equations = typename M::Equations;
 
  public:
-  /// @param stages empty: they are not iterated in lanes   @param record false: every step takes the ordinary road
+  /// @param stages empty: stages are not iterated in lanes @param record false: no step is recorded
   IteratedSimulation(SimulationOf<P, M, A> simulation, IterationRecorder recorder, StageRecorder stages, bool record)
       : Base(std::move(simulation)),
         recorder_(std::make_shared<const IterationRecorder>(std::move(recorder))),
@@ -69,7 +69,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   bool is_recorded() const override { return runner_.has_value(); }
   [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
     Base::restore(saved);
-    runner_.reset();  // where time begins is a constant of it
+    runner_.reset();  // the start time is a constant of the programs
   }
 
   const IterationFrame& frame() const override { return frame_; }
@@ -98,7 +98,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   }
 
  private:
-  /// The numbers of a frame. @return whether there is a first guess from the last step, doubtful or not
+  /// Fills in the numbers of a frame. @return whether there is a first guess from the last step, used or not
   bool fill(std::span<double> values) const {
     values[IterationFrame::h] = clock_.step_length();
     values[IterationFrame::position] = static_cast<double>(clock_.position());
@@ -120,9 +120,9 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
     return true;
   }
 
-  /// Recording and compiling cost about as much as so many steps.
+  /// The number of steps that recording and compiling cost.
   static constexpr std::int64_t worth_recording = 200;
-  /// A frame costs about as much as a step.
+  /// Fewer steps do not use programs, since filling a frame costs about as much as a step.
   static constexpr std::int64_t few_steps = 4;
 
   /// See take_quickly().
@@ -140,8 +140,8 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
     detail::guess_failures_of(method_) = guess_failures;
     return taken;
   }
-  /// What is asked of every residual, diagnostics, a tangent that is kept and points that change are not in the
-  /// programs; neither are steps that vary.
+  /// Whether programs can take these steps. They do not support a tolerance, diagnostics, a kept Jacobian, changing
+  /// points or varying steps.
   bool is_worth_running(std::int64_t steps) {
     if (!record_ || steps < few_steps || varies_steps() || automatic() || !can_be_recorded()) return false;
     const NewtonOptions options = newton();

@@ -11,9 +11,10 @@ namespace hamflow {
 
 namespace {
 
-/// Of the motion near a state: z' = J H'' z for small differences z.
+/// The linearised motion near a state: z' = J H'' z for small differences z.
 struct LinearMotion {
-  std::vector<std::vector<std::pair<std::size_t, double>>> rows{};  // sizes of what is not 0 in J H'', row by row
+  std::vector<std::vector<std::pair<std::size_t, double>>>
+      rows{};  // sizes of the entries of J H'' other than 0, row by row
   std::size_t entries = 0;
 };
 
@@ -24,7 +25,7 @@ LinearMotion linear_motion(const ErasedFunctions<double>& functions, const Vecto
   Matrix<double, dynamic> qq(n);
   Matrix<double, dynamic> qp(n);
   Matrix<double, dynamic> pp(n);
-  if (includes(functions.capability, natural)) {  // what Newton would ask for
+  if (includes(functions.capability, natural)) {  // as Newton would need them
     Vector<double, dynamic> force(n);
     functions.plain->force_and_hessian(q, force, qq);
     pp = inverse_mass_matrix(functions.as<natural>());
@@ -49,8 +50,8 @@ LinearMotion linear_motion(const ErasedFunctions<double>& functions, const Vecto
   return motion;
 }
 
-/// The largest rate of the motion or more: the spectral radius of the sizes of the entries, which no choice of units
-/// changes. By squares, since the sizes of q' = p/m, p' = -k q alone make a matrix whose powers go round in twos.
+/// An upper bound of the largest rate of the motion: the spectral radius of the sizes of the entries, which does not
+/// depend on units. It uses squares of the matrix, because for q' = p/m, p' = -k q the powers of the matrix alternate.
 double largest_rate(const LinearMotion& motion) {
   constexpr int products = 40;
   std::vector<double> x(motion.rows.size(), 1.0);
@@ -88,7 +89,7 @@ bool is_said(const Texts& options) {
 MethodSpec with_cheaper_iteration(const MethodSpec& method, const ErasedFunctions<double>& functions,
                                   const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h) {
   const std::size_t count = unknowns_of_step(method, q.size());
-  // itoh-abe evaluates H once a coordinate: an evaluation more costs as much as a matrix.
+  // itoh-abe evaluates H for each coordinate, so that one more evaluation costs as much as a matrix.
   if (count < fewest_unknowns_by_fixed_points || count > most_dense_unknowns || is_said(method.options) ||
       method.name == "itoh-abe") {
     return method;
@@ -97,11 +98,11 @@ MethodSpec with_cheaper_iteration(const MethodSpec& method, const ErasedFunction
   const auto entries = static_cast<double>(motion.entries);
   const auto numbers = static_cast<double>(2 * q.size());
   if (entries > numbers * numbers / 8) return method;
-  // Half of the step times the rate is what a correction leaves of the one before it, or more.
+  // The ratio of successive corrections is at most half of the step times the rate.
   const double left = std::abs(h) * largest_rate(motion) / 2;
   if (!(left < 0.5)) return method;
-  // In operations, from measured times of rings and chains: a step of fixed points evaluates first derivatives again
-  // and again, one of Newton's fills and solves a matrix two or three times.
+  // Costs in operations, from measured times of rings and chains: a fixed-point step evaluates first derivatives many
+  // times, a Newton step fills and solves a matrix two or three times.
   constexpr double points = 8;
   const bool natural = includes(functions.capability, Capability::separable | Capability::quadratic_kinetic);
   const double unknowns = static_cast<double>(count) * (natural ? 1 : 2);

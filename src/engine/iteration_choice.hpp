@@ -1,4 +1,4 @@
-// By which iteration the steps of a large sparse system are solved where nobody says.
+// The default iteration for the steps of large sparse systems.
 #pragma once
 
 #include "erased.hpp"
@@ -6,12 +6,12 @@
 
 namespace hamflow {
 
-/// Below them Newton's matrix costs no more than a few evaluations.
+/// With fewer unknowns Newton's matrix costs only a few evaluations.
 inline constexpr std::size_t fewest_unknowns_by_fixed_points = 100;
 
-/// The method with iteration = "fixed-point-or-newton" where nothing is said of the iteration, H has few second
-/// derivatives that are not 0, and fixed points cost less; else as it is. It is decided by the start and the step
-/// alone, once a run, so that all roads of a run take the same.
+/// The method with iteration = "fixed-point-or-newton" if no iteration is given, most second derivatives of H are 0 and
+/// fixed points cost less; otherwise the method unchanged. Only the start and the step decide this, once per run, so
+/// that all ways to run it make the same choice.
 /// @param q, p the start   @param h the step length
 MethodSpec with_cheaper_iteration(const MethodSpec& method, const ErasedFunctions<double>& functions,
                                   const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h);

@@ -20,7 +20,7 @@ IterationRecorder recorder_on(const ErasedFunctions<double>& functions, const Av
                                                                    time, parts);
   };
 }
-/// Of a problem for any H they are there as traces where they are written by hand.
+/// Whether second derivatives can be recorded: for a general H only if they are written by hand.
 bool has_second_derivatives(const ErasedFunctions<double>& functions) {
   const Vector<Trace<double>, dynamic> x(functions.size);
   Matrix<Trace<double>, dynamic> qq(functions.size);
@@ -29,7 +29,7 @@ bool has_second_derivatives(const ErasedFunctions<double>& functions) {
   try {
     functions.trace->hessian(x, x, qq, qp, pp);
     return true;
-  } catch (const std::logic_error&) {  // as Functions says that it has none
+  } catch (const std::logic_error&) {  // thrown by Functions without second derivatives
     return false;
   }
 }
@@ -55,7 +55,7 @@ StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capabilit
   }
   return [problem = StagesInLanes::Traced(functions.size, functions.trace), stages = options.element.degree](
              std::span<const double> q, std::span<const double> p) {
-    const LaneSet lanes = stages <= 4 ? LaneSet::avx2 : widest_native_lanes();  // four fill a shorter register
+    const LaneSet lanes = stages <= 4 ? LaneSet::avx2 : widest_native_lanes();  // four stages fill a shorter register
     return StagesInLanes::recorded(problem, stage_table<double>(stages), q, p, lanes);
   };
 }

@@ -6,12 +6,12 @@
 
 namespace hamflow {
 
-/// Empty where a step is no program, for every start the same but for constants.
+/// Empty if a step is not a program that is the same for every start except for constants.
 /// @param capabilities one of Averages::capability_sets, on which the simulation works
 IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, Capability capabilities,
                                      const AverageOptions& options);
 
-/// Empty where stages are not iterated by fixed point, or there is no machine code for lanes here.
+/// Empty if stages are not solved by fixed-point iteration, or there is no machine code for lanes here.
 StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capability capabilities,
                              const AverageOptions& options);
 

@@ -23,7 +23,7 @@ std::int64_t IterationRunner::run(std::span<double> frame, std::int64_t steps, E
   return taken;
 }
 
-/// @return whether it was taken; if not, the frame is as it was
+/// @return whether the step was taken; if not, the frame is unchanged
 bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& guess_failures) {
   before_.assign(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(recorded_.frame.correction()));
   int failures_after = guess_failures;
@@ -44,9 +44,8 @@ bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& gu
   return true;
 }
 
-/// Newton<E>::iterate() without a tolerance, from the first guess, or, where that is in guess_failures, from the last
-/// state.
-/// @return corrections; 0: it has not converged, or not to where it is believed without a further look
+/// Newton<E>::iterate() without a tolerance, from the first guess or, after guess failures, from the last state.
+/// @return the number of corrections; 0 if it did not converge or needs a further check
 int IterationRunner::solved(std::span<double> frame, int& guess_failures) {
   const IterationFrame& at = recorded_.frame;
   if (stages_) {
@@ -63,13 +62,13 @@ int IterationRunner::solved(std::span<double> frame, int& guess_failures) {
     if (!correct(frame)) return 0;
     const NewtonDecision decision = judge(frame, progress);
     if (decision == NewtonDecision::go_on) continue;
-    if (decision != NewtonDecision::settled) return 0;  // to a closer look
+    if (decision != NewtonDecision::settled) return 0;  // needs a further check
     if (!stages_ && options_.iteration == Iteration::newton && is_hidden(frame)) return 0;
     const bool guess_was_far = guess_failures == 0 && progress.began_far_away(1.0);
     if ((guess_was_far && !stages_) || !end(frame)) return 0;
     if (guess_was_far) {
       guess_failures = good_guesses_needed;
-    } else if (guess_failures > 0) {  // whether the guess would have been better
+    } else if (guess_failures > 0) {  // tests whether the guess would have been better
       const double distance = stages_->distance_of(frame.subspan(at.x(), at.m));
       guess_failures =
           good_guesses_needed_after(guess_failures, std::numeric_limits<double>::epsilon() * distance <= 1);

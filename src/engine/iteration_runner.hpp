@@ -1,6 +1,6 @@
 // The steps of one simulation that are solved by iteration, by their programs: Newton's decisions (newton.hpp) around
 // recorded corrections (recorded_iteration.hpp), or around stages in lanes (stages_in_lanes.hpp), with the bits of the
-// simulation behind virtual calls. A step that leaves their straight road is for the simulation itself.
+// simulation behind virtual calls. All other steps are left to the simulation.
 #pragma once
 
 #include <functional>
@@ -15,19 +15,19 @@
 
 namespace hamflow {
 
-/// Stages in lanes, at a state; nothing where a method is not solved like that, or H not recorded.
+/// Makes stages in lanes at a state; nullopt if the method does not use them or H is not recorded.
 using StageRecorder = std::function<std::optional<StagesInLanes>(std::span<const double> q, std::span<const double> p)>;
 
 class IterationRunner {
  public:
-  /// @param recorded its `correct` is not used where there are stages
+  /// @param recorded its `correct` is not used if there are stages
   IterationRunner(RecordedIteration recorded, const NewtonOptions& options, std::optional<StagesInLanes> stages);
 
-  /// Takes steps from a frame with a first guess, until a step is for the simulation.
-  /// @return how many were taken; the frame is behind them   @param effort to which their work is added   @param doubt
-  /// of Newton: good guesses still wanted, 0 unless counts_guess_failures()
+  /// Takes steps from a frame with a first guess, until a step must be left to the simulation.
+  /// @return the number of steps taken; the frame is the one after them @param effort to which their work is added
+  /// @param guess_failures of Newton; must be 0 unless counts_guess_failures()
   std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& guess_failures);
-  /// Steps that begin from the last state, and whether such an end is believed, which is asked of no stages.
+  /// Whether it can take steps that begin from the last state; this is so for stages, whose result needs no check.
   bool counts_guess_failures() const { return stages_.has_value(); }
 
  private:
@@ -36,7 +36,7 @@ class IterationRunner {
   bool correct(std::span<double> frame);
   bool end(std::span<double> frame);
   NewtonDecision judge(std::span<const double> frame, NewtonProgress<double>& progress) const;
-  /// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
+  /// Whether rounding hides the unknowns, see detail::hiding_terms (averages_rows.hpp).
   bool is_hidden(std::span<const double> frame) const;
 
   RecordedIteration recorded_;
@@ -48,7 +48,7 @@ class IterationRunner {
   std::vector<double> q_;
   std::vector<double> p_;
   std::vector<double> start_;
-  std::vector<double> next_;  // of stages: the first guess of the next step
+  std::vector<double> next_;  // for stages: the first guess of the next step
 };
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// What changes for a method where a step has more unknowns than a matrix is made for.
+// Changes of a method if a step has too many unknowns for a matrix.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 
 namespace hamflow {
 
-/// How many unknowns a step of so many coordinates is solved for; 0 where their number changes nothing.
+/// The number of unknowns of a step for the given number of coordinates; 0 if the method has no limit.
 std::size_t unknowns_of_step(const MethodSpec& spec, std::size_t coordinates);
 
-/// The Hessian of a gas with more coordinates is a matrix that does not fit.
+/// With more coordinates the Hessian of a gas does not fit into memory.
 inline constexpr std::size_t most_gas_coordinates_with_hessian = 3000;
 
-/// The method of a run with the iteration that is taken where nothing was said: a large sparse system may take
-/// "fixed-point-or-newton". @param request complete
+/// The method of a run with its default iteration: a large sparse system may use "fixed-point-or-newton". @param
+/// request complete
 MethodSpec method_taken(const Request& request);
 
-/// The option of a method that so many coordinates do not allow, and why: "found ...; allowed ...".
+/// The option of a method that this number of coordinates does not allow, and why: "found ...; allowed ...".
 std::optional<RefusedOption> refused_option(const MethodSpec& spec, std::size_t coordinates);
 
-/// An option that was given, and what a step of so many coordinates takes in its place, and why.
+/// A given option that is replaced for this number of coordinates, and why.
 struct ReplacedOption {
   std::string name;
   std::string message;  // "newton is not used: ..."

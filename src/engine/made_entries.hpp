@@ -1,4 +1,4 @@
-// Entries that are made from what is asked for, kept while they are asked for again.
+// A cache of entries that are made on request.
 #pragma once
 
 #include <map>
@@ -10,12 +10,13 @@
 
 namespace hamflow {
 
-/// The members of a sweep over a wall's position, or over a number inside a formula, are each a problem of their own:
-/// a cache of all of them would grow by some 25 kB a member. So it keeps the last few; who holds an older one keeps it.
+/// Each member of a sweep over the position of a wall, or over a number in a formula, is a separate problem, and a
+/// cache of all would grow by some 25 kB per member. So it keeps only the last few; older entries exist as long as they
+/// are used.
 template <class Key>
 class MadeEntries {
  public:
-  /// The entry of a key, made by make() where it is not kept.
+  /// The entry of a key, made by make() if it is not in the cache.
   template <class Make>
   std::shared_ptr<const ProblemEntry> find(const Key& key, const Make& make) {
     constexpr std::size_t most = 64;

@@ -1,4 +1,4 @@
-// A simulation of a request that nobody needs afterwards.
+// Makes a simulation from a request that is not needed afterwards.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// make_simulation, without a second copy of the start: of a million particles its texts are some 400 MB.
+/// make_simulation without a second copy of the start, whose texts are some 400 MB for a million particles.
 std::unique_ptr<Simulation> make_simulation_of(Request request);
 
 }  // namespace hamflow

@@ -96,7 +96,7 @@ class MpSimulation final : public Simulation {
   }
   Outcome measured_advance(std::int64_t steps) {
     using Clock = std::chrono::steady_clock;
-    constexpr double long_step = 1e-3;  // seconds; a copy of the simulation is nothing beside them
+    constexpr double long_step = 1e-3;  // seconds; a copy of the simulation costs little compared with that
     const Clock::time_point begin = Clock::now();
     const Outcome outcome = inner_->advance(steps);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();

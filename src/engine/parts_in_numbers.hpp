@@ -1,5 +1,5 @@
-// Parts of a step as numbers alone: while a wall is sought nothing of the simulation moves but the numbers of its
-// state. A flight between walls is some machine code and nothing else.
+// Partial steps on plain numbers: while a wall is located, only the numbers of the state change and not the simulation.
+// A path between walls is then only machine code.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace hamflow {
 /// then q, dH/dp and H at the end.
 struct RecordedPart {
   Program program;
-  std::size_t state = 0;                 // how many values the archive of the state has
+  std::size_t state = 0;                 // number of values in the archive of the state
   std::size_t size = 0;                  // of q
   Effort effort;                         // of one part
-  std::vector<std::int64_t> counters{};  // what one part adds to the counters that the method archives, in their order
+  std::vector<std::int64_t> counters{};  // increments by one part of the counters in the method's archive, in order
 
   std::size_t length() const { return state; }
   std::size_t end() const { return state + 1; }
@@ -32,10 +32,10 @@ class PartsInNumbers {
   /// The numbers of the state, to be filled in before the first part.
   double* begin();
   const double* state() const { return state_.data(); }
-  /// Where Psi_h leads from the state: q, dH/dp, H, until the next look. Null: a number is not finite, or the part is
-  /// one of another branch.
+  /// Evaluates Psi_h from the state: q, dH/dp, H, valid until the next call. Null if a number is not finite or the part
+  /// takes another branch.
   const double* look(double h);
-  /// To where look has just led.
+  /// Moves to the state that look has just evaluated.
   void go();
 
   /// As numbers, of which compensated ones have two: the first is their value.
@@ -44,9 +44,9 @@ class PartsInNumbers {
   void negate_momentum(std::size_t i);
 
   /// Since begin().
-  Effort effort() const;                            // of all looks
-  std::int64_t parts() const { return parts_; }     // that were taken
-  double energy() const { return values_.back(); }  // behind the last look
+  Effort effort() const;                            // of all calls of look
+  std::int64_t parts() const { return parts_; }     // number of parts taken
+  double energy() const { return values_.back(); }  // after the last look
 
  private:
   struct Compiled {
@@ -61,14 +61,15 @@ class PartsInNumbers {
   std::int64_t parts_ = 0;
 };
 
-/// A simulation whose parts are recorded some day.
+/// A simulation whose parts may be recorded.
 class MovesInNumbers {
  public:
   virtual ~MovesInNumbers() = default;
-  /// Parts of the present state as numbers, which the simulation knows nothing of until land. Null: there are none yet.
+  /// Partial steps on the numbers of the present state; the simulation is updated by land(). Null if parts are not
+  /// recorded yet.
   virtual PartsInNumbers* parts_in_numbers() = 0;
-  /// To where the numbers have gone. @return false where complete_step would not find a finite energy: then nothing was
-  /// done
+  /// Moves the simulation to the state of the numbers. @return false, with nothing done, if complete_step would not
+  /// find a finite energy
   virtual bool land() = 0;
 };
 

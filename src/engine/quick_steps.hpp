@@ -1,4 +1,4 @@
-// Steps of a simulation that are taken in two ways: quickly by programs where they can be, else ordinarily.
+// Takes the steps of a simulation by programs if possible (quickly), otherwise by the simulation (ordinarily).
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace hamflow {
 
-/// Takes steps quickly as long as that goes. What stops it is taken ordinarily: one step at first, twice as many each
-/// time that hardly any followed quickly, since to begin anew costs about a step.
-/// @param quickly (steps) -> how many it took; nothing where all that are left have to be taken ordinarily
+/// Takes steps quickly as long as possible. When that stops, it takes one step ordinarily, and twice as many each time
+/// that only few quick steps followed, because restarting costs about a step.
+/// @param quickly (steps) -> number of steps taken; nullopt if all remaining steps must be taken ordinarily
 /// @param ordinarily (steps) -> Outcome
 template <class Quickly, class Ordinarily>
 Outcome take_quickly(std::int64_t steps, Quickly&& quickly, Ordinarily&& ordinarily) {

@@ -24,7 +24,7 @@ auto recorder(const ErasedFunctions<double>& functions, const CgOptions& options
   };
 }
 
-/// Makes a loop for so many points from the numbers of a first step; empty where there can be none.
+/// Makes a loop for a number of points from the numbers of a first step; empty if that is impossible.
 using SegmentMaker = std::function<std::optional<SegmentLoop>(const SegmentFrame&, std::span<const double>,
                                                               const IterationTime&, int points)>;
 
@@ -42,7 +42,7 @@ SegmentMaker segment_maker(const ErasedFunctions<double>& functions, const CgOpt
   };
 }
 
-/// A simulation of cg(1) whose steps go through a segment loop where many are asked for; the bits are the same.
+/// A simulation of cg(1) that uses a segment loop if many steps are requested, with the same bits.
 template <class P, class M, Arithmetic A>
 class SegmentSimulation final : public SimulationOf<P, M, A> {
   using Base = SimulationOf<P, M, A>;
@@ -53,7 +53,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   using Equations = typename M::Equations;
 
  public:
-  /// @param maker empty: every step takes the ordinary road
+  /// @param maker empty: no step is recorded
   SegmentSimulation(Base simulation, const SegmentFrame& frame, SegmentMaker maker)
       : Base(std::move(simulation)), frame_(frame), maker_(std::move(maker)) {
     for_each_carried([&](double&) { ++frame_.recorded; }, z_, probe_);
@@ -71,14 +71,14 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   bool is_recorded() const override { return loop_.has_value(); }
   [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
     Base::restore(saved);
-    loop_.reset();  // where time begins is a constant of it
+    loop_.reset();  // the start time is a constant of the loop
   }
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override {
     return std::make_unique<SegmentSimulation>(*this);
   }
 
  private:
-  /// Recording and compiling cost about as much as so many steps.
+  /// The number of steps that recording and compiling cost.
   static constexpr std::int64_t worth_recording = 200;
   /// Filling a frame costs about as much as a step.
   static constexpr std::int64_t few_steps = 4;
@@ -97,14 +97,15 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     return taken;
   }
   int points() const { return method_.setup().rule().points; }
-  /// What is asked of every residual and diagnostics are not in the programs, nor are steps that vary.
+  /// Whether programs can take these steps. They do not support a tolerance, diagnostics or varying steps.
   bool is_worth_running(std::int64_t steps) {
     if (!maker_ || steps < few_steps || Base::varies_steps()) return false;
     const NewtonOptions options = method_.setup().newton();
     if (options.tolerance || options.diagnostics || options.iteration != Iteration::newton) return false;
     return loop_ || (asked_ += steps) >= worth_recording;
   }
-  /// The numbers of the next step, without its first guess. @return whether that comes from the last three
+  /// Fills in the numbers of the next step, without its first guess. @return whether that is extrapolated from the last
+  /// three
   bool fill() {
     if (!method_.newton().uses_memory() || !method_.newton().memory().is_full()) return false;
     numbers_.assign(frame_.size(), 0.0);

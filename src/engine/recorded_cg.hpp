@@ -6,8 +6,8 @@
 
 namespace hamflow {
 
-/// Null where the problem has more coordinates.
-/// @param request whether its steps vary
+/// Null if the problem has too many coordinates.
+/// @param request determines whether steps vary
 std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const Request& request,
                                                       const CgOptions& options);
 

@@ -1,5 +1,6 @@
-// cg(1) for few coordinates whose equations are recorded (element_programs.hpp): one compiled Newton for every problem
-// behind virtual calls, at about the speed, and with the bits, of the elements that are compiled with a problem.
+// cg(1) for few coordinates whose equations are recorded (element_programs.hpp): one compiled Newton iteration for
+// every problem behind virtual calls, with about the speed and the same bits as elements that are compiled for a
+// problem.
 #pragma once
 
 #include <map>
@@ -10,7 +11,7 @@
 
 namespace hamflow {
 
-/// What a recorded element is made of.
+/// The options of a recorded element.
 struct RecordedElementOptions {
   CgOptions cg;
   ElementFrame frame;
@@ -54,7 +55,7 @@ class RecordedElement : public SegmentEquations<P, double> {
     ElementFrame frame;
 
    private:
-    struct Made {  // shared by copies, which may run on several threads
+    struct Made {  // shared by copies, which may run on different threads
       std::mutex mutex;
       std::function<std::shared_ptr<const ElementPrograms>(int points)> record;
       std::map<int, std::shared_ptr<const ElementPrograms>> by_points;
@@ -71,7 +72,7 @@ class RecordedElement : public SegmentEquations<P, double> {
   };
   struct Point {
     SmallVector residual;
-    mutable std::array<double, ElementFrame::most> frame;  // also what programs work in
+    mutable std::array<double, ElementFrame::most> frame;  // also the memory of the programs
   };
 
   RecordedElement(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
@@ -85,7 +86,7 @@ class RecordedElement : public SegmentEquations<P, double> {
     return read(at, frame_.x());
   }
   SmallVector started(const SmallVector& memory) const {
-    if (memory.size() != frame_.m) return last_state();  // of a state that was saved elsewhere
+    if (memory.size() != frame_.m) return last_state();  // after restoring a state of another size
     Point at;
     begin(at);
     put(memory, at, frame_.x());
@@ -99,7 +100,7 @@ class RecordedElement : public SegmentEquations<P, double> {
     at.residual = read(at, frame_.residual());
   }
   void remove_residual_rounding(const SmallVector&, Point& at) const {
-    if (is_natural() && frame_.n <= 2) return;  // taken() makes up for it, as natural.hpp does
+    if (is_natural() && frame_.n <= 2) return;  // taken() corrects this, as in natural.hpp
     const SmallVector lost = read(at, frame_.lost());
     for (std::size_t i = 0; i < frame_.m; ++i) at.residual[i] = is_natural() ? at.residual[i] + lost[i] : lost[i];
   }
@@ -190,7 +191,7 @@ class RecordedElement : public SegmentEquations<P, double> {
       at.frame[frame_.p0() + i] = p0_[i];
     }
   }
-  /// Where products are too large to be recorded nothing is a number, and Newton does not converge.
+  /// If products are too large for the recording, all results are NaN and Newton does not converge.
   void run(const ElementProgram& program, const Point& at) const {
     if (!program.run(at.frame, effort_)) at.frame.fill(std::numeric_limits<double>::quiet_NaN());
   }

@@ -1,9 +1,9 @@
-// A step that is solved by iteration, recorded in two straight lines: one correction of its unknowns, with the end of
-// the step that would follow from it, and what the step leaves behind. How many corrections a step takes changes from
-// step to step, so that the whole of it is no program; and whether one was the last is decided by who runs the programs
-// (src/lanes/iterated_pack.cpp), as Newton itself does (detail/methods/implicit/newton.hpp).
+// A step that is solved by iteration, recorded as two programs: one correction of its unknowns with the resulting end
+// of the step, and the data for the next step. The number of corrections varies, so the whole step is not a program;
+// the caller of the programs decides which correction is the last (src/lanes/iterated_pack.cpp), as Newton itself does
+// (detail/methods/implicit/newton.hpp).
 //
-// Numbers stand in a frame, from which both programs read and into which they write.
+// The numbers are in a frame, which both programs read and write.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@
 namespace hamflow {
 
 namespace detail {
-/// The coefficients of plain numbers, rounded to them.
+/// The coefficients for traces, rounded like those for doubles.
 template <class Make>
 const AverageTable<Trace<double>>& traced_table(int averages, int points, const Make& make) {
   static std::mutex mutex;
@@ -49,16 +49,16 @@ struct IterationFrame {
   static constexpr std::size_t h = 0;
   static constexpr std::size_t position = 1;  // steps from the start of time
   static constexpr std::size_t carried = 2;   // state and probe, in the order of their archives
-  /// The k-th number of (q, p). Each is followed by what its compensated sum keeps.
+  /// The k-th number of (q, p). Each is followed by its compensation.
   static constexpr std::size_t state(std::size_t k) { return carried + 2 * k; }
   std::size_t memory() const { return 2 + recorded; }    // unknowns of the last step
   std::size_t x() const { return memory() + m; }         // the present unknowns
   std::size_t correction() const { return x() + m; }     // the last one
-  std::size_t unit() const { return correction() + m; }  // of its entries: what rounding makes of them
+  std::size_t unit() const { return correction() + m; }  // rounding of its entries
   std::size_t end() const { return unit() + m; }         // the unknowns at the end of the step
   std::size_t increment() const { return end() + m; }    // of q and p
-  // Where points are judged: H at the state; the energy that finer equations see gained in the last step, and its
-  // rounding; by how much H has changed more than rounding explains.
+  // For the test of points: H at the state; the energy gain of the last step with finer equations, and its rounding;
+  // the change of H beyond rounding.
   std::size_t energy() const { return increment() + 2 * n; }
   std::size_t gain() const { return energy() + 1; }
   std::size_t change() const { return gain() + 2; }
@@ -74,16 +74,16 @@ struct RecordedIteration {
   Effort of_finish;
 };
 
-/// Which of the programs are recorded: without a correction where that is done otherwise (stages_in_lanes.hpp).
+/// The programs to record; without the correction if that is computed in another way (stages_in_lanes.hpp).
 enum class IterationParts { all, finish };
 
-/// When a step is taken: time is `start` and a whole number of steps, which grows or shrinks.
+/// The time of a step: `start` plus a whole number of steps, which increases or decreases.
 struct IterationTime {
   double start = 0;
   double direction = 1;  // or -1, with h < 0
 };
 
-/// Records them at a frame whose unknowns are a first guess. Nothing: they are no straight lines, or too long.
+/// Records the programs at a frame whose unknowns are a first guess; nullopt if they branch or are too long.
 /// @param points the setting: Gauss points
 using IterationRecorder = std::function<std::optional<RecordedIteration>(
     const IterationFrame&, std::vector<double> values, int points, const IterationTime& time, IterationParts parts)>;
@@ -94,18 +94,19 @@ class IteratedMember {
   virtual ~IteratedMember() = default;
   virtual const IterationFrame& frame() const = 0;
   virtual NewtonOptions newton() const = 0;
-  /// Whether the points have to be judged at the end of every step.
+  /// Whether the points are tested at the end of every step.
   virtual bool automatic() const = 0;
   /// Which equations the next step begins with.
   virtual int points() const = 0;
   virtual bool can_be_recorded() const = 0;
   /// @pre can_be_recorded()
   virtual std::optional<RecordedIteration> recorded_iteration() const = 0;
-  /// The numbers of a frame. @return whether the next step begins with a first guess from the last one, which is then x
+  /// Fills in the numbers of a frame. @return whether the next step begins with a first guess from the last one, which
+  /// is then x
   virtual bool read(std::span<double> frame) const = 0;
-  /// The simulation as it is after so many steps more. @param effort of these steps
+  /// Sets the simulation to the state after the given number of further steps. @param effort of these steps
   virtual void take(std::span<const double> frame, std::int64_t steps, const Effort& effort) = 0;
-  /// The time that so many steps from now will have, in double.
+  /// The time after the given number of further steps, in double.
   virtual double time_after(std::int64_t steps) const = 0;
 };
 
@@ -194,8 +195,8 @@ S explained_change(const S& energy, const S& h, const Vector<S, dynamic>& q, con
   return S(128 * std::numeric_limits<double>::epsilon()) * S(abs(energy) + terms / S(16 * abs(h)));
 }
 
-/// What a step leaves behind. @param continues with the first guess of the next one   @return false where it leaves the
-/// finite numbers
+/// The data for the next step. @param continues includes the first guess of the next step @return false if a number is
+/// not finite
 template <class E, class TA>
 bool record_finish(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
                    const std::vector<double>& values, const IterationTime& time, bool continues,

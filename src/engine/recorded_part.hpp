@@ -1,5 +1,5 @@
-// A part of a step, recorded: Psi_h of a method that remembers nothing, with the length h as an input. Walls are
-// located on such parts (docs/design/walls.md), some six of them a bounce, each of another length.
+// A recorded partial step: Psi_h of a method without memory, with the length h as an input. Walls are located with such
+// parts (docs/design/walls.md), about six for each bounce, each with another length.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@
 
 namespace hamflow {
 
-/// From a state, with a length to begin with. Nothing where a part is no straight line.
+/// Records a part from a state and a length; nullopt if it branches.
 using PartRecorder = std::function<std::optional<RecordedPart>(const Vector<double, dynamic>& q,
                                                                const Vector<double, dynamic>& p, double h)>;
 
-/// leaf(x) for every counter that objects archive: whole numbers that no step does more with than count.
+/// leaf(x) for every counter in the archives of objects: whole numbers that steps only increment.
 template <class Leaf, class... Objects>
 void for_each_counter(Leaf&& leaf, Objects&... objects) {
   for_each_carried(

@@ -1,7 +1,6 @@
-// A simulation by name in double: it is the one behind virtual calls, and where many steps are asked for, a step is
-// recorded once (recorded_step.hpp), made into a loop (detail/numerics/program.hpp) and repeated in it, with the same
-// bits. Where a check of the loop fails, or the step cannot be recorded, the block takes the ordinary road from where
-// it began.
+// A simulation by name in double. It is the simulation behind virtual calls; if many steps are requested, a step is
+// recorded once (recorded_step.hpp), compiled into a loop (detail/numerics/program.hpp) and repeated, with the same
+// bits. If a check of the loop fails, or the step cannot be recorded, the simulation takes the block from its start.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +19,7 @@
 
 namespace hamflow {
 
-/// Records the step of length h from a state, with what is looked at in every step or without.
+/// Records the step of length h from a state, with or without the probe.
 using StepRecorder = std::function<std::optional<RecordedStep>(
     const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time, bool watch,
     RecordedAt at, AtWalls at_walls)>;
@@ -37,8 +36,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   using Base::z_;
 
  public:
-  /// @param recorder empty: every step takes the ordinary road   @param parts empty: so does every part of one
-  /// @param watch false: the probe stays as it was
+  /// @param recorder empty: no step is recorded @param parts empty: no part is recorded
+  /// @param watch false: the probe is not updated
   RecordedSimulation(SimulationOf<P, M, A> simulation, StepRecorder recorder, PartRecorder parts, bool watch)
       : Base(std::move(simulation)),
         recorder_(std::make_shared<const StepRecorder>(std::move(recorder))),
@@ -53,7 +52,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     const Loop* const loop = loop_for(clock_.step_length(), steps, AtWalls::stop);
     if (loop == nullptr || steps < 1 || loop->step->stops) return ordinary(steps);
     if (!read_all(*loop->step)) {
-      // One step leaves what the method keeps for the next one.
+      // One step computes the data that the method keeps for the next one.
       const Outcome outcome = ordinary(1);
       if (outcome != Outcome::done || --steps == 0) return outcome;
       if (!read_all(*loop->step)) return ordinary(steps);
@@ -67,7 +66,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       take_all(*loop->step, steps);
       return Outcome::done;
     }
-    // Nobody has looked at the energy yet.
+    // The energy has not been checked yet.
     const auto z = z_;
     const auto method = method_;
     const auto clock = clock_;
@@ -83,7 +82,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return ordinary(steps);
   }
 
-  /// Blocks grow, so that little is taken twice where a check fails; one that ends at a wall has not failed.
+  /// The size of blocks increases, so that few steps are repeated if a check fails. A block that ends at a wall has not
+  /// failed.
   std::int64_t take_recorded(std::int64_t steps, std::span<std::int64_t> bounces) override {
     behind_walls_ = true;
     undone_ = nullptr;
@@ -94,7 +94,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     if (loop == nullptr) return 0;
     const RecordedStep& step = *loop->step;
     Base::prepare();
-    if (!read_all(step)) return 0;  // one step by the ordinary road mends it
+    if (!read_all(step)) return 0;  // one ordinary step corrects this
     std::int64_t taken = 0;
     std::int64_t block = block_;
     bool has_failed = false;
@@ -121,7 +121,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
 
   const RecordedStep* undone_step() const override { return undone_.get(); }
 
-  /// Behind walls, of the steps of take_recorded() alone.
+  /// With walls, only for the steps of take_recorded().
   bool add_to_sums(std::span<const NamedExpression> summed, std::span<StepSum> sums) override {
     const auto uses_time = [](const NamedExpression& each) { return each.expression.uses_time(); };
     if (!*recorder_ || std::any_of(summed.begin(), summed.end(), uses_time)) return false;
@@ -175,7 +175,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls) override {
     return Base::varies_steps() ? nullptr : record(at_walls);
   }
-  /// Tangent vectors follow steps in plain double alone.
+  /// Only for steps in plain double.
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) override {
     if constexpr (std::is_same_v<A, Plain<double>>) {
       if (!*recorder_) return nullptr;
@@ -204,7 +204,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   }
   [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
     Base::restore(saved);
-    loops_ = {};  // where time begins is a constant of theirs
+    loops_ = {};  // the start time is a constant of the loops
     step_ = nullptr;
     undone_ = nullptr;
   }
@@ -218,10 +218,10 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   }
 
  private:
-  /// Recording and compiling a step costs about as much as so many of them.
+  /// The number of steps that recording and compiling a step cost.
   static constexpr std::int64_t worth_recording = 200;
   static constexpr std::int64_t first_block = 32;
-  /// And parts of one as so many of them.
+  /// The same for parts.
   static constexpr int worth_recording_parts = 400;
   struct Loop {
     double h = 0;
@@ -245,7 +245,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   }
   [[gnu::cold]] bool make_part(double h) {
     if (!*part_recorder_ || ++parts_asked_ < worth_recording_parts) return false;
-    parts_asked_ = 0;  // the part that was to be recorded may be one of another branch
+    parts_asked_ = 0;  // another branch may be recorded next time
     std::optional<RecordedPart> recorded = (*part_recorder_)(z_.positions(), z_.momenta(), h);
     if (!recorded) return false;
     numbers_.emplace(*std::move(recorded));
@@ -282,7 +282,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     probe_ = probe;
     return outcome;
   }
-  /// A sum may be no number.
+  /// Whether all numbers are finite; sums may be NaN.
   bool are_finite() const {
     double most = 0;
     for (const double x : std::span(values_).first(values_.size() - 2 * summed_.size())) {
@@ -290,7 +290,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     }
     return most <= std::numeric_limits<double>::max();
   }
-  /// The values of a step, and behind them those of the sums.
+  /// Reads the values of a step, followed by those of the sums.
   bool read_all(const RecordedStep& step) {
     const std::size_t of_step = step.program.values();
     values_.resize(of_step + 2 * summed_.size());
@@ -309,10 +309,10 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     }
   }
 
-  /// After a block in which a check failed. A motion that has taken another branch for good fails in every block, and
-  /// each costs its steps twice: the loop rests for as many steps as the block has, for twice as many after the next
-  /// failure, and so on, until it has succeeded for as many steps as it rested. Where it rests for long, it is recorded
-  /// anew, on the branch of that time.
+  /// Called after a block in which a check failed. A motion that stays on another branch fails in every block, each of
+  /// which costs its steps twice. So the loop is not used for as many steps as the block has, for twice as many after
+  /// the next failure, and so on, until it has succeeded for as many steps as it was unused. After a long pause it is
+  /// recorded again, on the current branch.
   void rest(std::int64_t steps) {
     constexpr std::int64_t most = 1 << 20;
     rest_ = std::min(most, std::max(2 * rest_, steps));
@@ -321,8 +321,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     loops_ = {};
     step_ = nullptr;
   }
-  /// Null where there is none, or too few steps have been asked for. Forwards and backwards are two loops, and so are
-  /// the two ways of meeting walls.
+  /// The loop for these steps; null if there is none or too few steps have been requested. Forward and backward steps,
+  /// and the two treatments of walls, have separate loops.
   const Loop* loop_for(double h, std::int64_t steps, AtWalls at_walls) {
     for (const auto& loop : loops_) {
       if (loop && loop->h == h && loop->at_walls == at_walls) return loop->steps ? loop.get() : nullptr;
@@ -333,7 +333,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     made->h = h;
     made->at_walls = at_walls;
     made->step = record(at_walls);
-    constexpr int often_enough = 32;  // the step that was to be recorded may be one of another branch
+    constexpr int often_enough = 32;  // another branch may be recorded next time
     if (!made->step && behind_walls_ && ++failures_ < often_enough) return nullptr;
     if (made->step && summed_.empty()) made->steps = make_step_loop(made->step->program);
     if (made->step && !summed_.empty()) {
@@ -350,22 +350,22 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::shared_ptr<const PartRecorder> part_recorder_;
   bool watch_;
   std::array<std::shared_ptr<const Loop>, 4> loops_;
-  std::shared_ptr<const RecordedStep> step_;  // the last one that was recorded, of length step_of_
+  std::shared_ptr<const RecordedStep> step_;  // the last recorded step, of length step_of_
   std::pair<double, AtWalls> step_of_{};
   std::vector<double> values_;
   std::vector<double> kept_values_;
   std::int64_t block_ = first_block;
   std::int64_t asked_ = 0;
-  std::int64_t rest_ = 0;     // how many steps the loop rested for when a check failed last, less its successes since
-  std::int64_t resting_ = 0;  // how many of them are left
+  std::int64_t rest_ = 0;     // length of the last pause of the loop, minus its successful steps since
+  std::int64_t resting_ = 0;  // remaining steps of the pause
   bool behind_walls_ = false;
-  std::shared_ptr<const RecordedStep> undone_;  // lives on where loops are dropped
+  std::shared_ptr<const RecordedStep> undone_;  // kept when loops are dropped
   int failures_ = 0;                            // of recording
-  std::span<const NamedExpression> summed_{};   // whose values behind each step are added to sums_
+  std::span<const NamedExpression> summed_{};   // their values after each step are added to sums_
   std::span<StepSum> sums_{};
   std::optional<PartsInNumbers> numbers_;
   int parts_asked_ = 0;
-  bool is_at_mark_ = false;  // of the flight
+  bool is_at_mark_ = false;  // whether the state is the one saved at Place::path
 };
 
 }  // namespace hamflow

@@ -1,6 +1,6 @@
-// One whole step of a method, recorded: the step template is called with traces in place of numbers, on a problem
-// behind virtual calls, and what it computes becomes a Program. Everything that a step leaves for the next one is
-// carried, the kick that is kept as well as what the probe has seen, so that the program can be repeated by itself.
+// A recorded step of a method: the step template is called with traces instead of numbers, on a problem behind virtual
+// calls, and its operations become a Program. The program carries all data that a step passes to the next one,
+// including kept kicks and the probe, so that it can be repeated.
 #pragma once
 
 #include <memory>
@@ -25,58 +25,57 @@ namespace hamflow {
 struct RecordedStep {
   Program program;
   std::vector<CarriedField> fields;
-  std::vector<std::size_t> state;  // which values q, then p, are shown as
-  /// Behind walls, and in the places before the last value: words that count bounces, which are 0 at the start of a
-  /// loop, or one number that is 1 where a step was left undone and the loop ends.
+  std::vector<std::size_t> state;  // which values are q, then p
+  /// With walls, the values before the last one: words that count bounces, 0 at the start of a loop, or one number that
+  /// is 1 if a step was not taken and the loop ends.
   std::size_t words = 0;
   bool stops = false;
-  Effort effort{};  // of one step, evaluations alone
+  Effort effort{};  // of one step, only evaluations
   std::size_t first_word() const { return program.values() - 1 - words; }
   std::size_t stop() const { return program.values() - 2; }
 };
 
-/// Adds what the words of a step have counted to the numbers of bounces off each side.
+/// Adds the counts in the words of a step to the numbers of bounces off each side.
 inline void add_bounces(const RecordedStep& step, std::span<const double> values, std::span<std::int64_t> bounces) {
   for (std::size_t k = 0; step.words > 0 && k < bounces.size(); ++k) {
     bounces[k] += BounceWord::count(values[step.first_word() + k / BounceWord::sides], k % BounceWord::sides);
   }
 }
 
-/// Longer steps take the ordinary road: straight code of twice this length, which no longer fits into a processor's
-/// second cache, is as slow as the compiled loops over bodies (20 bodies with stv4, 9 with kahan-li8).
+/// Longer steps are not recorded: straight-line code of twice this length does not fit into the second-level cache and
+/// is as slow as the compiled loops over bodies (20 bodies with stv4, 9 with kahan-li8).
 inline constexpr std::size_t most_recorded_operations = 20000;
 
-/// Which step of many is recorded: one that goes on from what the last one kept, or one from a state that was changed
-/// from outside, which carries nothing in but the state.
+/// Which step is recorded: one that continues with the data of the last step, or one from a state that was changed from
+/// outside, without such data.
 enum class RecordedAt { steady, start };
 
-/// What a simulation offers to lanes: its step, and the numbers that go through it
-/// (src/engine/recorded_simulation.hpp).
+/// The interface of a simulation to lanes: its step, and the numbers of the step (src/engine/recorded_simulation.hpp).
 class RecordedMember {
  public:
   virtual ~RecordedMember() = default;
-  /// The step from the present state; null where it cannot be recorded.
-  /// @param at_walls behind walls
+  /// The step from the present state; null if it cannot be recorded.
+  /// @param at_walls for simulations with walls
   virtual std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls = AtWalls::stop) = 0;
-  /// What the next step begins with is computed now, where a method keeps it and has forgotten it.
+  /// Computes the quantity that the next step begins with, if the method keeps one and has dropped it.
   virtual void make_ready() = 0;
-  /// The step before which the last recorded steps ended, because it may meet a wall; null: they did not.
+  /// The step before which the last recorded steps ended because it may hit a wall; null if they did not.
   virtual const RecordedStep* undone_step() const { return nullptr; }
-  /// A step that was left undone, by the ordinary road.
+  /// Takes a step that was not taken by the loop.
   virtual Outcome step_ordinarily(const RecordedStep& undone) = 0;
-  /// The step that tangent vectors take from the present state, without a probe; null where there is none.
+  /// The step for tangent vectors from the present state, without a probe; null if there is none.
   virtual std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) = 0;
-  /// The values that are carried into such a step. @return false where what the method keeps is not as recorded: one
-  /// step by the ordinary road mends it
+  /// Reads the values that such a step carries. @return false if the method's data differ from the recording; one
+  /// ordinary step corrects this
   virtual bool read_values(const RecordedStep& step, std::span<double> values) const = 0;
-  /// The values after so many steps, from those that were read.
+  /// Sets the values after the given number of steps since they were read.
   virtual void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) = 0;
-  /// The time that so many steps from now will have, in double.
+  /// The time after the given number of further steps, in double.
   virtual double time_after(std::int64_t steps) const = 0;
 };
 
 namespace detail {
-/// The numbers of a traced object, before the step and behind it.
+/// The numbers of a traced object, before or after the step.
 struct TracedFields {
   std::vector<Trace<double>> traces;
   std::vector<std::optional<std::uint64_t>> others;  // bits, in the order of all fields; none for a trace
@@ -96,7 +95,7 @@ TracedFields traced_fields(Objects&... objects) {
       objects...);
   return all;
 }
-/// Before and behind a step. Empty where a field changes in another way than a counter does.
+/// The changes of fields in a step; empty if a field changes in another way than a counter.
 std::vector<CarriedField> carried_fields(const TracedFields& before, const TracedFields& after,
                                          const std::vector<bool>& counts);
 }  // namespace detail
@@ -196,9 +195,9 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     add_evaluations(recorded.effort, method.effort(), method_before.effort());
     if (recorded.words > 0) {
       if (!remembers_positions_alone<M>()) return std::nullopt;
-      // A force that is kept where a state is thrown back is one of another time.
+      // After a rejected step a kept force would belong to another time.
       if (walls->rule == WallRule::reject && problem.has_clock()) return std::nullopt;
-      // A step that is taken back, or turned, has to be one that does not fail.
+      // A step that is rejected or mirrored must not fail.
       Number size(0);
       for (const Number& x : Vector<Number, dynamic>(z.positions())) size += x;
       for (const Number& x : Vector<Number, dynamic>(z.momenta())) size += x * x;
@@ -207,8 +206,8 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
       if (walls->rule == WallRule::reject) {
         Number thrown_back(0);
         met = reject_within<Number>(walls->sides, z_before, method_before, z, method, thrown_back);
-        // A state that is thrown back has the energy that it had. The step's own last state is looked at instead: its
-        // root is one that the last force had, too.
+        // A rejected step restores a state with known energy. The last state of the step is checked instead; it shares
+        // a root with the last force.
         if (watch && walls->keep_energy && detail::invariant_sizes(problem).empty()) {
           if (!probe.look(problem, seen.positions(), seen.momenta(), t)) return std::nullopt;
           detail::choose_all(thrown_back, probe_before, probe);

@@ -39,7 +39,7 @@ struct Loops {
   std::size_t values = 0;
   std::vector<std::size_t> moving;  // values whose slopes are carried; the state comes first
   std::unique_ptr<const StepLoop> start;
-  std::unique_ptr<const StepLoop> steady;  // null: this is no way
+  std::unique_ptr<const StepLoop> steady;  // null: steps cannot be taken this way
 };
 
 class RecordedTangents {

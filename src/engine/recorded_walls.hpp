@@ -1,6 +1,6 @@
-// What a recorded step does at hard walls (docs/design/walls.md): where one may be met it is left undone and the loop
-// ends, so that somebody looks closer; or, where nobody has to look, the bounce is a choice within the step, and
-// counted.
+// Recorded steps at hard walls (docs/design/walls.md). A step that may hit a wall is not taken and the loop ends, so
+// that the simulation can locate the wall; or, with rules that need no location, the bounce is a choice within the step
+// and is counted.
 #pragma once
 
 #include <utility>
@@ -16,10 +16,10 @@ namespace hamflow {
 struct StepWalls {
   std::vector<WallSide<double>> sides;
   WallRule rule = WallRule::event;
-  bool keep_energy = false;  // a bounce leaves H as it was, to the last bit
+  bool keep_energy = false;  // a bounce does not change a bit of H
 };
 
-/// What a recorded step does where it may meet a wall.
+/// The treatment of a recorded step that may hit a wall.
 enum class AtWalls { stop, bounce };
 
 /// Bounces off up to `sides_in_word` sides are counted in one number, each in digits of its own: a loop may go on for
@@ -28,7 +28,7 @@ struct BounceWord {
   static constexpr std::size_t sides = 4;
   static constexpr std::int64_t base = std::int64_t{1} << 13;
   static constexpr std::int64_t most_steps = base - 1;
-  /// What a bounce off the k-th side of a word adds.
+  /// The increment for a bounce off the k-th side of a word.
   static double unit(std::size_t k) { return static_cast<double>(std::int64_t{1} << (13 * k)); }
   static std::int64_t count(double word, std::size_t k) {
     return (static_cast<std::int64_t>(word) >> (13 * k)) & (base - 1);

@@ -1,6 +1,6 @@
-// The exact flow to rounding, by a family of its own: Gragg's modified midpoint rule extrapolated in h^2
-// (Aitken-Neville), with step control. Slow and accurate; it knows nothing of the methods it judges.   [HNW1993,
-// II.9]   What is extrapolated is the increment of a step, not the state: its rounding is then
+// The exact flow to rounding, by an independent method: Gragg's modified midpoint rule extrapolated in h^2
+// (Aitken-Neville), with step control. It is slow and accurate, and independent of the methods that it
+// tests.   [HNW1993, II.9] What is extrapolated is the increment of a step, not the state: its rounding is then
 // relative to the increment, and the state takes it with compensation.
 #pragma once
 
@@ -22,7 +22,7 @@ class ExtrapolatedFlow {
   using Z = Vector<R, M>;
   explicit ExtrapolatedFlow(const P& problem) : problem_(problem), size_(degrees_of_freedom(problem)) {}
 
-  /// z(t) from z(0). Not a number where the orbit cannot be followed (a collision).
+  /// z(t) from z(0); NaN if the orbit cannot be computed (a collision).
   Z flow(const Z& start, R t) const {
     using Axis = typename Compensated<R>::Axis;
     auto sum = zeros<typename Compensated<R>::Stored, M>(2 * size_);
@@ -98,8 +98,8 @@ class ExtrapolatedFlow {
     for (const R& x : z) size = larger(size, R(abs(x)));
     return size;
   }
-  /// True when two neighbours of the extrapolation table agree to the rounding of an increment, or come no closer and
-  /// are at most 256 roundings apart.
+  /// True if two neighbours of the extrapolation table agree to the rounding of an increment, or stop converging at a
+  /// distance of at most 256 roundings.
   bool try_step(const Z& z, R step, Z& out) const {
     std::vector<Z> row;
     R previous = std::numeric_limits<R>::max();

@@ -1,7 +1,7 @@
 // Steps of cg(1) of few coordinates by two programs, around which Newton's decisions stand
 // (detail/numerics/newton_progress.hpp): the equations at the present unknowns, and what a step leaves behind, the
-// first guess of the next step included. Their bits are those of RecordedElement. A step that leaves their straight
-// road is for the simulation itself.
+// first guess of the next step included. Their bits are those of RecordedElement. All other steps are left to the
+// simulation.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct SegmentFrame {
   std::size_t x() const { return memory() + 3 * m; }
   std::size_t correction() const { return x() + m; }
   std::size_t residual() const { return correction() + m; }
-  std::size_t lost() const { return residual() + m; }  // what rounding has taken from the residual; or all without it
+  std::size_t lost() const { return residual() + m; }  // rounding error of the residual; all of it if it is not removed
   std::size_t tangent() const { return lost() + m; }   // row after row
   std::size_t free_displacement() const { return tangent() + m * m; }
   std::size_t sum() const { return free_displacement() + 1; }
@@ -62,9 +62,9 @@ class SegmentLoop {
         most_corrections_(most_corrections),
         before_(frame.correction()) {}
 
-  /// Puts the first guess of a step into a frame. @return whether it is one
+  /// Computes the first guess of a step in a frame. @return whether it is valid
   bool begin(std::span<double> numbers) const { return first_guess_->run(numbers, 1); }
-  /// Takes steps from a frame with a first guess, until a step is for the simulation.
+  /// Takes steps from a frame with a first guess, until a step must be left to the simulation.
   /// @return how many were taken; the frame is behind them   @param effort to which their work is added
   std::int64_t run(std::span<double> numbers, std::int64_t steps, Effort& effort) {
     std::int64_t taken = 0;
@@ -88,7 +88,7 @@ class SegmentLoop {
   }
 
  private:
-  /// Newton<RecordedElement>::iterate() as it mostly goes. @return after how many corrections; 0: otherwise
+  /// Newton<RecordedElement>::iterate() for ordinary steps. @return the number of corrections; 0 for other steps
   int solved(std::span<double> numbers) const {
     NewtonProgress<double> progress(Convergence::quadratic);
     for (int k = 1; k <= most_corrections_; ++k) {
@@ -108,8 +108,8 @@ class SegmentLoop {
           is_hidden(numbers, x, correction)) {
         return 0;
       }
-      if (k == 1 && sharpens()) correction = solve(tangent, residual_at(numbers, true));
-      if (!sharpens()) {
+      if (k == 1 && removes_residual_rounding()) correction = solve(tangent, residual_at(numbers, true));
+      if (!removes_residual_rounding()) {
         const SmallVector more = NaturalElement<P, double>::made_up_for(tangent, read(numbers, frame_.lost()));
         for (std::size_t i = 0; i < x.size(); ++i) correction[i] += more[i];
       }
@@ -119,11 +119,12 @@ class SegmentLoop {
     return 0;
   }
 
-  /// Whether corrections are solved for the residual without its own rounding; in the plane the end makes up for it.
-  bool sharpens() const { return !(frame_.is_natural() && frame_.n <= 2); }
+  /// Whether the rounding of the residual is removed before a correction is solved; in the plane this is done at the
+  /// end.
+  bool removes_residual_rounding() const { return !(frame_.is_natural() && frame_.n <= 2); }
   SmallVector residual_at(std::span<const double> numbers, bool sharp) const {
     SmallVector r = read(numbers, frame_.residual());
-    if (!sharp || !sharpens()) return r;
+    if (!sharp || !removes_residual_rounding()) return r;
     for (std::size_t i = 0; i < frame_.m; ++i) {
       const double lost = numbers[frame_.lost() + i];
       r[i] = frame_.is_natural() ? r[i] + lost : lost;
@@ -188,7 +189,7 @@ class SegmentRecorder {
                   bool judges)
       : problem_(problem), watched_(watched), setup_(problem, options), frame_(frame), judges_(judges) {}
 
-  /// @return nothing where they are no straight lines, or too long
+  /// @return nullopt if they branch or are too long
   std::optional<SegmentLoop> loop(std::span<const double> numbers, const IterationTime& time) const {
     try {
       Effort work, work_of_finish;
@@ -289,7 +290,7 @@ class SegmentRecorder {
     }
     return matrix;
   }
-  /// What equations() has left, as far as the end of a step needs it.
+  /// The results of equations() that the end of a step needs.
   Point point(const Frame& f) const {
     Point at;
     at.sum = f.read(frame_.sum(), frame_.m);

@@ -19,7 +19,7 @@ using Numbers = Vector<Number, dynamic>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_lanes = 32;
-/// Below it a size is a quotient by a unit that is neither tiny nor 0.
+/// Below this bound the scaled norm was not divided by a zero or subnormal scale.
 constexpr double most_plain_size = 0x1p51;
 
 /// A value of one lane.

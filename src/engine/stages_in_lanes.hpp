@@ -1,7 +1,7 @@
-// Gauss collocation by fixed-point iteration with the stages side by side in vector registers, one in each lane, for
-// H = p^T M^-1 p/2 + V(q): one evaluation of all forces is one of the recorded force on registers, and so is
-// everything else of a correction. What a stage needs of the others is read from where they left it
-// (Instruction::of_lane). The bits are those of NaturalAverages, operation by operation.   [AntonanaMakazagaMurua2025]
+// Gauss collocation by fixed-point iteration with the stages side by side in vector registers, one in each lane, for H
+// = p^T M^-1 p/2 + V(q): one evaluation of all forces is one of the recorded force on registers, and so is everything
+// else of a correction. A stage reads the values of the others from their lanes (Instruction::of_lane). The bits are
+// those of NaturalAverages, operation by operation.   [AntonanaMakazagaMurua2025]
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class StagesInLanes {
  public:
   using Traced = AnyProblem<Trace<double>, Capability::separable | Capability::quadratic_kinetic>;
 
-  /// Nothing where the force branches on numbers that are not there, or is too long (most_recorded_operations).
+  /// nullopt if the force has branches that cannot be guarded, or is too long (most_recorded_operations).
   /// @param table of stages   @param q, p the state at which H is recorded   @param lanes interpreted where there is no
   /// machine code for them
   static std::optional<StagesInLanes> recorded(const Traced& problem, const AverageTable<double>& table,

@@ -1,5 +1,5 @@
-// A simulation of H(q, p, t), whose last coordinates carry the time (detail/core/step_clock.hpp), without these: what a
-// look shows has the coordinates that have names.
+// A simulation of H(q, p, t) that hides its last coordinates, which hold the time (detail/core/step_clock.hpp): frames
+// show only the named coordinates.
 #pragma once
 
 #include "hamflow/run/simulation.hpp"

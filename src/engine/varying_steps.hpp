@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// What decides the lengths of steps on a problem, or on its recording.
+/// The monitor for a problem, or for its recording.
 template <class P>
 StepMonitor<RealOf<P>, dynamic> step_monitor(const P& problem, const StepControl& control) {
   return control.monitor == default_monitor ? arclength_monitor(problem) : distance_monitor(problem);
@@ -15,7 +15,7 @@ StepMonitor<RealOf<P>, dynamic> step_monitor(const P& problem, const StepControl
 
 inline constexpr Capability natural_face = Capability::separable | Capability::quadratic_kinetic;
 
-/// Lets the steps of a simulation vary where the request says so.
+/// Makes the steps of a simulation vary if the request asks for it.
 template <class R, class S>
 void vary_steps_as_requested(S& simulation, const ErasedRun<R>& run, const Request& request) {
   const StepControl control = step_control_of(request.method);

@@ -1,11 +1,11 @@
-// How a run behind walls fails for a reason that no step length mends.
+// A failure at walls that a smaller step does not cure.
 #pragma once
 
 #include <string_view>
 
 namespace hamflow {
 
-/// The end of the sentence where a momentum cannot be turned round, because H has no second root in it.
+/// The end of the message if a momentum cannot be reversed, because H has no second root in it.
 inline constexpr std::string_view no_other_momentum = "no other momentum of that coordinate has the same energy";
 
 }  // namespace hamflow

@@ -1,6 +1,6 @@
-// A way out of a step in many digits: a single evaluation of a force takes seconds there, and the functions of a
-// problem are where every method spends them. They ask (src/engine/asking_functions.hpp), and the simulation that
-// opened the way goes back to where it stood (src/engine/mp_simulation.cpp).
+// Interruption of a step in many digits, where a single evaluation of a force takes seconds. The functions of a
+// problem, in which every method spends its time, check for a requested stop (src/engine/asking_functions.hpp) and
+// throw; the simulation then restores its state (src/engine/mp_simulation.cpp).
 #pragma once
 
 #include <utility>
@@ -11,13 +11,13 @@ namespace hamflow {
 
 class StepInterruption {
  public:
-  /// Thrown out of the step.
+  /// Thrown to leave the step.
   struct Taken {};
   StepInterruption() : before_(std::exchange(is_open(), true)) {}
   ~StepInterruption() { is_open() = before_; }
   StepInterruption(const StepInterruption&) = delete;
   StepInterruption& operator=(const StepInterruption&) = delete;
-  /// Leaves the step if somebody wants to stop. Where no way is open in this thread, nothing happens.
+  /// Leaves the step if a stop is requested and a StepInterruption exists in this thread.
   static void ask() {
     if (is_open() && StopQuestion::stop_requested()) throw Taken{};
   }

@@ -19,14 +19,14 @@ bool BlockTangents::load(const FamilyLoop::Steps& start, const FamilyLoop::Steps
   return start_.load(start, with_slopes) && steady_.load(steady, with_slopes);
 }
 
-/// Lanes go together from one length of steps to the next longer one.
+/// Advances all lanes together from one number of steps to the next larger one.
 void BlockTangents::carry(std::span<LaneTangents> jobs) {
   const std::size_t lanes = steady_.lanes();
   carried_.assign(place(vectors_, 0), 0.0);
   std::vector<LaneTangents*> by_steps;
   for (LaneTangents& job : jobs) by_steps.push_back(&job);
   std::sort(by_steps.begin(), by_steps.end(), [](auto* a, auto* b) { return a->steps < b->steps; });
-  std::vector<const LaneTangents*> of_lane(lanes, &jobs.front());  // lanes without vectors of their own take any
+  std::vector<const LaneTangents*> of_lane(lanes, &jobs.front());  // lanes without vectors use any
   for (const LaneTangents& job : jobs) of_lane[job.lane] = &job;
   for (std::size_t lane = 0; lane < lanes; ++lane) write(*of_lane[lane], lane);
   const auto flags = std::make_unique<bool[]>(lanes);

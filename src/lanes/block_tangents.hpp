@@ -12,7 +12,7 @@ class BlockTangents {
   /// @param vectors of each lane
   BlockTangents(LaneSet lanes, std::size_t vectors) : start_(lanes), steady_(lanes), vectors_(vectors) {}
 
-  /// @param start, steady of each member, RecordedMember::tangent_step   @return false where vectors cannot go in lanes
+  /// @param start, steady of each member, RecordedMember::tangent_step @return false if vectors cannot run in lanes
   bool load(const FamilyLoop::Steps& start, const FamilyLoop::Steps& steady);
   void carry(std::span<LaneTangents> jobs);
 

@@ -9,7 +9,7 @@ namespace {
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// The same but for constants.
+/// Whether two steps differ only in constants.
 bool alike(const RecordedStep& a, const RecordedStep& b) {
   const auto same_field = [](const CarriedField& x, const CarriedField& y) {
     return x.kind == y.kind && (x.kind == CarriedField::Kind::kept || x.bits == y.bits);  // a kept number depends on h
@@ -34,7 +34,7 @@ bool FamilyLoop::load(const Steps& steps, const Make& make) {
   }
   const bool known = loop_ && alike(*first_, first);
   if (!known || !serves(first.program, differ)) {
-    if (known) {  // what differed once will differ again
+    if (known) {  // constants that differed once are likely to differ again
       for (std::size_t k = 0; k < differ.size(); ++k) {
         differ[k] = differ[k] || differs_[k] || !same_bits(first_->program.constants[k], first.program.constants[k]);
       }

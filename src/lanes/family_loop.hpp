@@ -1,5 +1,5 @@
-// The steps of a block's members as one loop: their programs are the same but for constants, and what differs is a
-// number for each lane. A loop is kept for the blocks that come after.
+// The steps of a block's members as one loop: their programs differ only in constants, which are numbers per lane. A
+// loop is kept for later blocks.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace hamflow {
 
 class FamilyLoop {
  public:
-  /// Of each member, in the order of lanes; the last one stands for lanes without a member.
+  /// The step of each member, in the order of lanes; the last one is used for lanes without a member.
   using Steps = std::vector<std::shared_ptr<const RecordedStep>>;
   /// Makes a program of a member's, by appending constants that are the same for all. Nothing: it cannot.
   using Make = std::function<std::optional<Program>(const Program&)>;
@@ -22,7 +22,7 @@ class FamilyLoop {
   /// @param registers to a number, as make_lane_loop has them
   explicit FamilyLoop(LaneSet lanes, std::size_t registers = 4) : set_(lanes), registers_(registers) {}
 
-  /// @return false where the members' steps differ in more than constants, or the program cannot be made
+  /// @return false if the members' steps differ in more than constants, or the program cannot be made
   bool load(const Steps& steps, const Make& make = {});
   std::size_t lanes() const { return lanes_; }
   /// @param carried values of the program that was made x lanes(), as LaneLoop has them

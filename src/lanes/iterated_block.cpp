@@ -12,13 +12,13 @@ namespace hamflow {
 
 namespace {
 
-/// Members go together with those that have as many points; one that takes another number, or loses its guess, goes
-/// alone for the rest of a stretch of steps, and joins again.
+/// Members with the same number of points run together. A member that changes its number of points, or loses its guess,
+/// runs alone for the rest of a stretch of steps and then joins again.
 class IteratedBlock final : public EnsembleBlock {
  public:
   IteratedBlock(std::shared_ptr<const ProblemEntry> problem, Request request, LaneSet lanes)
       : problem_(std::move(problem)), request_(std::move(request)), set_(lanes) {
-    request_.record = false;  // members go in lanes
+    request_.record = false;  // members run in lanes
   }
 
   /// Several packs, or those of members with other points would be half empty.
@@ -110,7 +110,7 @@ class IteratedBlock final : public EnsembleBlock {
     return *member.simulation;
   }
 
-  /// What follows tangent vectors does it by itself: the step of a method that is solved for is not a program.
+  /// Not supported: an iterated step is not a program that could be differentiated.
   bool expect_tangents(std::size_t) override { return false; }
   void carry(std::span<LaneTangents>) override {}
 
@@ -131,8 +131,8 @@ class IteratedBlock final : public EnsembleBlock {
   };
   static constexpr std::int64_t stretch = 16;
 
-  /// What is asked of every residual, the steps of `simplified` with a tangent that is kept, and diagnostics are not
-  /// in the programs. Whether a step can be recorded shows behind the first one.
+  /// Whether a member can run in lanes. The programs do not support a tolerance, `simplified` and diagnostics. Whether
+  /// a step can be recorded is known only after the first one.
   bool can_go(const Simulation& simulation, const IteratedMember& member) {
     const NewtonOptions options = member.newton();
     if (!member.can_be_recorded() || options.tolerance || options.diagnostics ||

@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// Null where no lanes of such a request are known. load() is false where they cannot hand their steps over.
+/// Null if such a request cannot run in lanes. load() returns false if the members cannot.
 std::unique_ptr<EnsembleBlock> make_iterated_block(const std::shared_ptr<const ProblemEntry>& problem,
                                                    const Request& request, LaneSet lanes);
 

@@ -1,5 +1,5 @@
-// The programs of iterated steps with one number of points, as loops over lanes: those of the members are the same but
-// for constants.
+// The programs of iterated steps with one number of points, as loops over lanes; the programs of members differ only in
+// constants.
 #pragma once
 
 #include <map>
@@ -16,9 +16,9 @@ class IteratedFamily {
   /// they no longer fit into its first cache of instructions.
   explicit IteratedFamily(LaneSet lanes) : correct_(lanes, 1), finish_(lanes, 1) {}
 
-  /// Recording and compiling cost about as much as so many steps of one member.
+  /// Whether enough steps are requested to be worth recording and compiling.
   bool is_worth_it(std::int64_t more_steps) { return (asked_ += more_steps) >= worth_recording; }
-  /// Forgets the members, not the loops.
+  /// Removes the members and keeps the loops.
   void clear() {
     recorded_.clear();
     refused_.clear();

@@ -120,7 +120,8 @@ void IteratedPack::judge(std::size_t lane) {
   ++of_lane.solves;
   if (decision == NewtonDecision::go_on) return;
   of_lane.settled = true;
-  // A step that stalls, that began far from its solution, or whose unknowns rounding hides, is looked at more closely.
+  // A step that stalls, that began far from its solution, or whose unknowns are hidden by rounding, needs further
+  // checks.
   const bool is_plain = decision == NewtonDecision::settled && !of_lane.progress.began_far_away(1.0) &&
                         !(options_->iteration == Iteration::newton && is_hidden(lane));
   if (!is_plain) leave(lane, carried_);
@@ -131,7 +132,7 @@ bool IteratedPack::is_hidden(std::size_t lane) const {
   return hidden_by_rounding(&carried_[at_.unit() * width_ + lane], &carried_[at_.x() * width_ + lane], at_.m, width_);
 }
 
-/// The lane waits for others.
+/// Saves the end of the step while the lane waits for others.
 void IteratedPack::keep_end(std::size_t lane) {
   const std::size_t size = at_.m + 2 * at_.n;
   for (std::size_t k = 0; k < size; ++k) ends_[k * width_ + lane] = number(at_.end() + k, lane);
@@ -145,8 +146,7 @@ void IteratedPack::take_end(std::size_t lane) {
   for (std::size_t k = 0; k < 2 * at_.n; ++k) number(at_.state(k), lane) = ends_[(size + k) * width_ + lane];
 }
 
-/// What the lane computes is of no use. Sines and other functions of the library, one by one in a lane, answer 0 at
-/// once.
+/// Sets the lane to zeros, because its results are not used and library functions such as sine return quickly for 0.
 void IteratedPack::rest(std::size_t lane) {
   for (std::size_t k = 0; k < 2 * at_.n; ++k) number(at_.state(k), lane) = 0;
   for (std::size_t i = 0; i < at_.m; ++i) number(at_.x() + i, lane) = 0;

@@ -25,8 +25,8 @@ using StepAlone = std::function<bool(std::size_t lane, std::int64_t left)>;
 
 class IteratedPack {
  public:
-  /// Takes so many steps with each member, but those that have left.
-  /// @param lanes at most family.lanes()   @return how many were taken in lanes
+  /// Takes the given number of steps with each member that is still in its lane.
+  /// @param lanes at most family.lanes() @return the number of steps taken in lanes
   std::int64_t run(const IteratedFamily& family, const NewtonOptions& options, bool automatic,
                    std::span<const PackLane> lanes, std::int64_t steps, const StepAlone& alone);
 

@@ -216,7 +216,7 @@ class RecordedBlock final : public EnsembleBlock {
   double& word(LaneNumbers& carried, std::size_t k, std::size_t lane) const {
     return carried[(step().first_word() + k) * lanes() + lane];
   }
-  /// The bounces of all lanes go to their members, before a word overflows.
+  /// Adds the bounces of all lanes to their members, before a word overflows.
   void settle() {
     for (std::size_t lane = 0; lane < lanes(); ++lane) {
       if (lane < members_.size() && !is_lost(lane)) bring(members_[lane], lane, carried_, taken_);
@@ -225,8 +225,7 @@ class RecordedBlock final : public EnsembleBlock {
     settled_ = taken_;
   }
 
-  /// The last step of a lane was left undone where it may meet a wall: the member takes it by itself, and gives its
-  /// numbers back.
+  /// The next step of a lane may hit a wall and was not taken: the member takes it alone and returns its numbers.
   void take_alone() {
     double* const stop = carried_.data() + step().stop() * lanes();
     for (std::size_t lane = 0; lane < lanes(); ++lane) {
@@ -248,7 +247,7 @@ class RecordedBlock final : public EnsembleBlock {
     if (!member.lost) member.recorded->make_ready();
     add_to_sums(lane);
   }
-  /// Nothing stops for it any more.
+  /// Marks a lane as lost, so that it no longer stops the others.
   void give_up(std::size_t lane) {
     for (std::size_t k = 0; k < values_.size(); ++k) {
       carried_[k * lanes() + lane] = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// Null where the steps of such a request are not recorded.
+/// Null if the steps of such a request are not recorded.
 std::unique_ptr<EnsembleBlock> make_recorded_block(const std::shared_ptr<const ProblemEntry>& problem,
                                                    const Request& request, LaneSet lanes);
 

@@ -1,4 +1,4 @@
-// What an instruction computes, in plain C++: for the interpreter, and for what is known while a program is compiled.
+// The meaning of instructions in plain C++, for the interpreter and for constants that are folded at compile time.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr bool is_commutative(Instruction instruction) {
   return instruction == Instruction::add || instruction == Instruction::multiply;
 }
 
-/// How many operands it has.
+/// The number of operands.
 constexpr int arity(Instruction instruction) {
   if (instruction == Instruction::choose) return 3;
   return takes_two(instruction) || instruction == Instruction::larger ? 2 : 1;
@@ -33,7 +33,7 @@ FunctionOfOne function_of_one(Instruction instruction);
 /// The library's function of two numbers; null for any other instruction.
 FunctionOfTwo function_of_two(Instruction instruction);
 
-/// Both at once, which costs the library little more than one of them and gives the same bits.
+/// Sine and cosine together, which costs little more than one of them and gives the same bits.
 struct SineAndCosine {
   double sine, cosine;  // as a function's result in the first two registers of a vector unit
 };

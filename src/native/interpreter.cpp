@@ -1,4 +1,5 @@
-// A program, operation by operation. The numbers of a step stand in one array: carried, constants, results.
+// Interprets a program operation by operation. The numbers of a step are in one array: carried values, constants,
+// results.
 #include <algorithm>
 
 #include "functions.hpp"

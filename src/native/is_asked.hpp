@@ -5,8 +5,8 @@
 
 namespace hamflow::native {
 
-/// HAMFLOW_NATIVE=0 asks for the interpreter.
-inline bool is_asked() {
+/// Whether machine code is enabled; HAMFLOW_NATIVE=0 selects the interpreter.
+inline bool is_enabled() {
   const char* const text = std::getenv("HAMFLOW_NATIVE");
   return text == nullptr || std::string_view(text) != "0";
 }

@@ -63,7 +63,7 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
                                 " registers to a number; allowed 1 to 4");
   native::LaneProgram ready = native::lane_program(program, differs);
   std::unique_ptr<const native::Function> function;
-  if (const unsigned available = native::lane_registers(lanes); available > 0 && native::is_asked()) {
+  if (const unsigned available = native::lane_registers(lanes); available > 0 && native::is_enabled()) {
     const Program step = native::with_both(native::interleaved(ready, registers, native::run_of_one));
     const unsigned masks = lanes == LaneSet::avx2 && native::needs_masks(step) ? 1 : 0;
     function = native::assembled_lanes(native::placed(step, available - masks, steps), step.constants, ready.uniform,
@@ -74,7 +74,7 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
 }
 
 LaneSet widest_native_lanes() {
-  if (!native::is_asked()) return LaneSet::generic;
+  if (!native::is_enabled()) return LaneSet::generic;
   for (const LaneSet set : {LaneSet::avx512, LaneSet::avx2}) {
     if (native::lane_registers(set) > 0) return set;
   }

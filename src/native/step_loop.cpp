@@ -42,7 +42,7 @@ std::unique_ptr<const StepLoop> make_machine_code(const Program& program) {
 }  // namespace native
 
 std::unique_ptr<const StepLoop> make_step_loop(const Program& program) {
-  if (native::is_asked()) {
+  if (native::is_enabled()) {
     if (auto loop = native::make_machine_code(program)) return loop;
   }
   return make_interpreter(native::simplified(program));

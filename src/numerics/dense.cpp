@@ -1,4 +1,4 @@
-// What Eigen does, compiled once: it is more to read and to compile than all the rest of a problem.
+// Calls of Eigen, compiled once, because Eigen takes longer to compile than the rest of a problem.
 #include "hamflow/detail/numerics/dense.hpp"
 
 #include <Eigen/LU>
@@ -13,8 +13,8 @@ using RowMajor = Eigen::Matrix<R, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajo
 
 constexpr std::size_t few = 4;
 
-/// What Eigen does with so few equations, in its order and with its bits, for a tenth of the time: in a step of an
-/// implicit method on one or two coordinates the calls of Eigen cost more than the forces.
+/// Solves small systems like Eigen, with the same order and bits, in a tenth of the time: in a step of an implicit
+/// method with one or two coordinates, calls of Eigen cost more than the forces.
 template <class R>
 void solve_small(const R* m, R* b, std::size_t size) {
   R a[few][few];
@@ -52,7 +52,7 @@ void solve_with(const R* m, R* b, std::size_t size, std::size_t columns) {
     solve_small(m, b, size);
     return;
   }
-  // Kept from call to call: a run solves systems of one size, and then nothing is allocated.
+  // Kept between calls, so that a run, which solves systems of one size, does not allocate.
   static thread_local Eigen::PartialPivLU<RowMajor<R>> factors;
   static thread_local RowMajor<R> solution;
   const auto n = static_cast<Eigen::Index>(size);

@@ -1,4 +1,4 @@
-// Numbers for lanes: they begin where the widest register can be read at once.
+// Numbers for lanes, aligned for the widest register.
 #pragma once
 
 #include <cstddef>

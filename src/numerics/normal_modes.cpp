@@ -1,4 +1,4 @@
-// Eigen's solver, compiled once: it is more to compile than a whole problem.
+// Eigen's solver, compiled once, because it takes longer to compile than a whole problem.
 #include "hamflow/detail/numerics/normal_modes.hpp"
 
 #include <Eigen/Eigenvalues>

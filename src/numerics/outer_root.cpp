@@ -14,14 +14,14 @@ namespace hamflow {
 
 namespace {
 
-constexpr int too_many = 4;  // turns among eight points of a scan: between the points there may be more of them
+constexpr int too_many = 4;  // extrema among eight points of a scan; more may be hidden between the points
 
 struct Point {
   double x;
   double value;
 };
 
-/// From the outside inwards, for the largest zero; what is not finite is left out.
+/// Points of the scan from the outside inwards, for the largest zero, without values that are not finite.
 std::vector<Point> scanned(const std::function<double(double)>& f) {
   constexpr int far_octaves = 100;
   constexpr int near_octaves = 20;
@@ -41,7 +41,7 @@ std::vector<Point> scanned(const std::function<double(double)>& f) {
   return all;
 }
 
-/// Whether f turns at a point by as much as could take it to 0.
+/// Whether f has an extremum at a point that may reach 0.
 bool turns(const Point& outer, const Point& here, const Point& inner) {
   const double before = here.value - outer.value;
   const double after = inner.value - here.value;
@@ -49,7 +49,7 @@ bool turns(const Point& outer, const Point& here, const Point& inner) {
   return before * after < 0 && std::min(std::abs(before), std::abs(after)) >= least / 4;
 }
 
-/// The point of an interval at which f, positive at its ends, is least.
+/// The minimum of f in an interval; f is positive at its ends.
 Point least_between(const std::function<double(double)>& f, double a, double b) {
   std::uintmax_t passes = 200;
   const auto [x, value] =
@@ -57,8 +57,8 @@ Point least_between(const std::function<double(double)>& f, double a, double b) 
   return {x, value};
 }
 
-/// The zero furthest out between x and a point of the scan: the interval is looked at on finer and finer scales, as a
-/// function that wiggles there has several zeros. Nothing where one is found behind the other without end.
+/// The outermost zero between x and a point of the scan. The interval is searched on finer and finer scales, because an
+/// oscillating function has several zeros. nullopt if the search finds more and more zeros.
 std::optional<double> outermost(const std::function<double(double)>& f, double x, const Point& outer,
                                 const std::function<bool(double)>& is_zero) {
   constexpr int scales = 16;
@@ -89,7 +89,7 @@ std::optional<double> outermost(const std::function<double(double)>& f, double x
   return std::nullopt;
 }
 
-/// The point some places outside of point i from which on f keeps the sign of the point before i.
+/// The point outside of point i from which on f keeps the sign of the point before i.
 const Point& one_sided(const std::vector<Point>& points, std::size_t i) {
   constexpr std::size_t reach = 4;
   std::size_t k = i - 1;
@@ -97,8 +97,8 @@ const Point& one_sided(const std::vector<Point>& points, std::size_t i) {
   return points[k];
 }
 
-/// A zero x next to point i of the scan, or one further out. It is the last that can be told unless f turns at almost
-/// every point there: then it was met by chance.
+/// A zero x next to point i of the scan, or one further out. If f has extrema at almost every point there, the zero was
+/// found by chance and is not known to be the last.
 OuterRoot settled(const std::function<double(double)>& f, const std::vector<Point>& points, std::size_t i, double x,
                   const std::function<bool(double)>& is_zero) {
   constexpr std::size_t reach = 8;
@@ -137,11 +137,11 @@ OuterRoot outer_root(const std::function<double(double)>& f, bool largest, const
     if ((here.value > 0) != (outer.value > 0)) {
       const double x = bracketed_root(f, here.x, outer.x, here.value, outer.value);
       if (is_zero(x)) return settled(f, points, i, x, is_zero);
-      // A jump, or a pole, changes the sign without a zero.
+      // A jump or a pole changes the sign without a zero.
       continue;
     }
     if (i + 1 == points.size()) break;
-    // Between three points of one sign, of which the middle one is nearest to 0, f may reach it.
+    // f may reach 0 between three points of one sign if the middle one is closest to 0.
     const Point& inner = points[i + 1];
     const double sign = here.value > 0 ? 1 : -1;
     if (!(sign * here.value < sign * outer.value && sign * here.value <= sign * inner.value)) continue;

@@ -1,4 +1,4 @@
-// The outermost zero of a function on the whole line: of a quadratic in closed form, of any other by a scan.
+// The outermost zero of a function on the real line: in closed form for a quadratic, by a scan for other functions.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace hamflow {
 
-/// The largest, or the smallest, x with a x^2 + b x + c = 0, by the formula that does not cancel [Higham2002,
-/// Sect. 1.8]. Nothing where there is none.
-/// @param noise what rounding may have made of c: a parabola that misses 0 by no more touches it
+/// The largest, or the smallest, x with a x^2 + b x + c = 0, by the formula without cancellation [Higham2002, Sect.
+/// 1.8]. nullopt if there is none.
+/// @param noise possible rounding error of c: a parabola that misses 0 by at most this counts as touching it
 template <class R>
 std::optional<R> quadratic_root(const R& a, const R& b, const R& c, const R& noise, bool largest) {
   if (a == R(0)) {
@@ -34,19 +34,18 @@ std::optional<R> quadratic_root(const R& a, const R& b, const R& c, const R& noi
 }
 
 struct OuterRoot {
-  std::optional<double> x{};  // nothing where the search finds none
-  bool told = true;  // false: f oscillates, or is 0, as far as it is looked at, and no zero is known to be the last
+  std::optional<double> x{};  // nullopt if the search finds none
+  bool told = true;  // false: f oscillates or is 0 in the whole searched range, and no zero is known to be the last
 };
 
-/// A zero of f in double beyond which, on the side of the largest or of the smallest numbers, a search finds none: f is
-/// looked at in 0, in 128 points of each power of 2 from 2^-20 to 2^20 and in four of each from 2^-100 to 2^100, of
-/// both signs. Where it comes near 0 between them its extremum is looked for, and beside a zero it is looked at on
-/// sixteen finer scales. A dip that is narrower than the points are apart is not seen. What is not finite is passed
-/// over.
-/// @param is_zero whether f is 0 there to rounding; a change of sign where it is not is a pole or a jump
+/// The largest or smallest zero of f in double that a search finds. f is evaluated at 0, at 128 points for each power
+/// of 2 from 2^-20 to 2^20, and at four points for each from 2^-100 to 2^100, of both signs. If f comes near 0 between
+/// points, its extremum is located; near a zero, sixteen finer scales are searched. A dip narrower than the distance of
+/// points is not found. Values that are not finite are ignored.
+/// @param is_zero whether f is 0 at x to rounding; otherwise a change of sign is a pole or a jump
 OuterRoot outer_root(const std::function<double(double)>& f, bool largest, const std::function<bool(double)>& is_zero);
 
-/// A zero of f near one that is known in double, in R: by secants, as long as |f| falls.
+/// Refines a zero of f that is known in double to a zero in R, by the secant method, as long as |f| decreases.
 template <class R>
 R refined_root(const std::function<R(const R&)>& f, double near) {
   if constexpr (std::is_same_v<R, double>) {

@@ -6,7 +6,7 @@
 namespace hamflow {
 
 namespace {
-/// Fills a program in the order of the tape; operations that nothing needs are left out.
+/// Fills a program in the order of the tape, without unused operations.
 class Translation {
  public:
   explicit Translation(const Tape<double>& tape) : tape_(tape), place_(tape.nodes.size()) {}
@@ -25,7 +25,7 @@ class Translation {
   const TapeNode& node(int i) const { return tape_.nodes[static_cast<std::size_t>(i)]; }
   Operand at(int i) const { return place_[static_cast<std::size_t>(i)]; }
 
-  /// The companion of a function, which only Taylor coefficients need, is no operand.
+  /// The companion of a function, which only Taylor coefficients need, is not an operand.
   static bool has_second_operand(Operation operation) {
     return takes_two(operation) || operation == Operation::larger || operation == Operation::choose;
   }

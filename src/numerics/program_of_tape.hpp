@@ -1,4 +1,4 @@
-// Between a recording of arithmetic (detail/core/tape.hpp) and what can be run (detail/numerics/program.hpp).
+// Translates a recording (detail/core/tape.hpp) into a program (detail/numerics/program.hpp).
 #pragma once
 
 #include "hamflow/detail/core/tape.hpp"
@@ -6,7 +6,7 @@
 
 namespace hamflow {
 
-/// The program of an exact recording: what the outputs and the guards need of the tape.
+/// The program of an exact recording, with the operations that outputs and guards need.
 Program program_of(const Tape<double>& tape);
 
 }  // namespace hamflow

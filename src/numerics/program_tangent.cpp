@@ -3,7 +3,7 @@
 namespace hamflow {
 
 namespace {
-/// Appends operations to a program. An operand of no kind is a slope that is zero.
+/// Appends operations to a program. An operand of kind `none` is a zero slope.
 class Differentiation {
  public:
   Differentiation(const Program& program, std::span<const bool> moves, std::size_t vectors)

@@ -9,9 +9,9 @@ namespace hamflow {
 Integral integrate_from_ends(const std::function<long double(long double, long double)>& f, long double length) {
   using L = long double;
   if (!(length > 0)) return {};
-  // The error is about the square of the last change, but no smaller than its power 1.3 where the integrand turns close
-  // to an end, as on a narrow orbit: beyond rounding once the change is epsilon^0.75. Eight refinements, as an
-  // integrand with noise of its own never gets there.
+  // The error is about the square of the last change, but at least its power 1.3 if the integrand turns close to an
+  // end, as on a narrow orbit; so it is below rounding once the change is epsilon^0.75. At most eight refinements,
+  // because an integrand with noise never gets there.
   static boost::math::quadrature::tanh_sinh<L> rule(8);  // may be used by several threads
   static const L accepted = std::pow(std::numeric_limits<L>::epsilon(), 0.75L);
   L change = 0;

@@ -20,7 +20,7 @@ R found_between(const std::function<R(R)>& f, R a, R b, R at_a, R at_b) {
   if (at_a == 0) return a;
   if (at_b == 0) return b;
   if (std::isfinite(at_a) && std::isfinite(at_b) && (at_a > 0) == (at_b > 0)) {
-    return std::numeric_limits<R>::quiet_NaN();  // what should lie between is lost in rounding
+    return std::numeric_limits<R>::quiet_NaN();  // rounding hides the zero
   }
   R best = a + (b - a) / 2;
   R least = std::numeric_limits<R>::infinity();
@@ -32,8 +32,8 @@ R found_between(const std::function<R(R)>& f, R a, R b, R at_a, R at_b) {
     }
     return value;
   };
-  // Halving, until the values at both ends are known and the ends are of one size: secants over many powers of ten
-  // lead nowhere.
+  // Bisection until the values at both ends are known and the ends have a similar size: secants over many powers of ten
+  // do not converge.
   const bool rising = at_a < at_b;
   while (least > 0 && !(std::isfinite(at_a) && std::isfinite(at_b) && (a <= 0 || b <= 4 * a))) {
     const R x = a > 0 && b > 4 * a ? std::sqrt(a) * std::sqrt(b) : a + (b - a) / 2;

@@ -1,5 +1,5 @@
 // The definition of simulate_erased, instantiated in one file for each number type, and in double in another one for
-// the methods whose steps are recorded: few of their steps take the ordinary road, so that a light optimisation does.
+// the methods whose steps are recorded: few of their steps are not recorded, so that light optimisation is enough.
 #pragma once
 
 #include "engine/asking_functions.hpp"
@@ -46,7 +46,7 @@ constexpr bool takes_recorded_lengths = requires(typename M::template Stepper<P,
   stepper.step(problem, h, z);
 };
 
-/// Records parts of steps, between walls that are located; empty where nobody takes any, or the method cannot.
+/// Records parts of steps for walls that are located; empty if there are none or the method does not support it.
 template <Capability c, class A, class M>
 PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   using Traced = AnyProblem<Trace<double>, c>;
@@ -64,7 +64,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   }
 }
 
-/// Records steps of varying length of a method whose steps can have any, of natural Hamiltonians; else empty.
+/// Records steps of varying length, for methods that support any length and natural Hamiltonians; else empty.
 template <Capability c, class A, class M>
 StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, const Request& request) {
   using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
@@ -173,7 +173,7 @@ std::unique_ptr<Simulation> simulate_asked(const ErasedRun<R>& run, const Reques
   return simulate_behind_walls<R>(run, request, *walls, simulate_without_walls<R>);
 }
 
-/// A step in mp(d) can take minutes: whoever wants to stop is heard within it.
+/// A step in mp(d) can take minutes, so it can be interrupted.
 template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
   if constexpr (std::is_same_v<R, Mp>) {

@@ -1,5 +1,5 @@
-// Which face of a problem behind virtual calls a method works on. A face is a set of capabilities; each method is
-// compiled on as few as it needs.
+// Selects the capability set of a problem behind virtual calls for which a method is compiled. Each method is compiled
+// for as few sets as it needs.
 #pragma once
 
 #include <array>
@@ -10,8 +10,7 @@
 namespace hamflow {
 
 namespace detail {
-/// The sets of a recipe, the preferred one first: those that it declares, or the one with the fewest capabilities that
-/// it accepts.
+/// The capability sets of a recipe in order of preference: those that it declares, or the smallest set that it accepts.
 template <class M>
 constexpr auto capability_sets_of() {
   if constexpr (requires { M::capability_sets; }) {
@@ -30,7 +29,7 @@ constexpr auto capability_sets_of() {
 template <class Result, class M, std::size_t k, class F>
 Result visit_capability_set(Capability offered, const M& recipe, F&& f) {
   constexpr auto sets = capability_sets_of<M>();
-  static_assert(M::template accepts<Erased<double, sets[k]>>, "hamflow: a recipe has to accept its sets");
+  static_assert(M::template accepts<Erased<double, sets[k]>>, "hamflow: a recipe must accept its capability sets");
   if constexpr (k + 1 < sets.size()) {
     if (!includes(offered, sets[k])) return visit_capability_set<Result, M, k + 1>(offered, recipe, f);
   }

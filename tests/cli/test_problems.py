@@ -239,7 +239,7 @@ class Problems(CommandCase):
         for problem, words in (
             (cf + 'potential="power"\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.a", "missing")),
             (cf + 'potential="power"\na=1\nn=-1\norbit={energy=1,angular_momentum=1}', ("problem.n", "but -1")),
-            (cf + 'potential="power"\na=[1,2]\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.n", "as a has, 2")),
+            (cf + 'potential="power"\na=[1,2]\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.n", "as in a, 2")),
             (cf + 'potential="kepler"\norbit={energy=-1,angular_momentum=1}', ("problem.orbit.energy", "exceeded by 0.5")),
             (cf + 'potential="kepler"\norbit={energy=1}', ("kind", "angular_momentum")),
             (cf + 'potential="kepler"\ncoordinates="plar"\norbit={kind="circle",r0=1}', ("did you mean polar",)),

@@ -1,5 +1,5 @@
-// Compensated summation: each stored number is an unevaluated sum high + low, so that adding small increments loses
-// nothing to the rounding of the state. [HLW2006, Sect. VIII.5; the exact sum of two numbers: Knuth1997, 4.2.2]
+// Compensated summation: each stored number is an unevaluated sum high + low, so that small increments are not lost to
+// the rounding of the state. [HLW2006, Sect. VIII.5; the exact sum of two numbers: Knuth1997, 4.2.2]
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,8 @@ struct Compensated {
     static constexpr const Real& read(const Stored& s) { return s.high; }
     /// s <- s + r: the error of high + (r + low) is found exactly (two-sum, no assumption on magnitudes) and kept.
     static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
-    /// The same with r + low exact as well. What is lost there had a mean on some orbits (docs/design/cg.md).
+    /// The same with an exact sum r + low, because its rounding error had a mean other than 0 on some orbits
+    /// (docs/design/cg.md).
     static constexpr void add_keeping(Stored& s, const Real& r) {
       const R increment = r + s.low;
       const R of_low = increment - r;
@@ -36,12 +37,12 @@ struct Compensated {
       settle(s, begin_with(s, increment));
       s.low += lost;
     }
-    /// What `begin` leaves to `settle`.
+    /// Data that `begin` passes to `settle`.
     struct Pending {
       R before{};
       R increment{};
     };
-    /// The first half of add, which others wait for: high is the sum already, low not yet its error.
+    /// The first half of add, on which later operations depend: high is the sum, but low is not its error yet.
     static constexpr Pending begin(Stored& s, const Real& r) { return begin_with(s, r + s.low); }
     static constexpr Pending begin_with(Stored& s, const R& increment) {
       const Pending pending{s.high, increment};
@@ -52,9 +53,9 @@ struct Compensated {
       const R part = s.high - pending.before;
       s.low = (pending.before - (s.high - part)) + (pending.increment - part);
     }
-    /// The same as add, bit for bit, with low two operations sooner, for one who waits for it, and without a branch.
-    /// The error of a sum is the smaller summand less what the sum has of it [Dekker1971, (4.14)]: computed for either
-    /// order, then chosen. Where it is 0 add gives +0, and so must this: the added zeros turn -0 into +0.
+    /// The same as add, bit for bit, without a branch and with low available two operations sooner. The error of a sum
+    /// is the smaller summand minus its part in the sum [Dekker1971, (4.14)]: computed for either order, then chosen.
+    /// Where it is 0 add gives +0, and so must this: the added zeros turn -0 into +0.
     static void add_sooner(Stored& s, const Real& r) {
       if constexpr (std::is_floating_point_v<R>) {
         const R increment = r + s.low;
@@ -63,7 +64,7 @@ struct Compensated {
         const R if_larger = (s.high + R(0)) - (sum - increment);
         s.low = std::abs(increment) <= std::abs(s.high) ? if_smaller : if_larger;
         s.high = sum;
-      } else {  // may be not exact there
+      } else {  // may be inexact there
         add(s, r);
       }
     }

@@ -1,6 +1,6 @@
-// Double-double: the unevaluated sum of two doubles, about 32 digits, by the QD library.   [HidaLiBailey2001]
-// Sums and quotients are QD's accurate ones: its defaults lose digits where terms cancel, and cancelling is what
-// energies and invariants do when they are compared.
+// Double-double: the unevaluated sum of two doubles, about 32 digits, by the QD library.   [HidaLiBailey2001] Sums and
+// quotients are QD's accurate versions: its defaults lose digits if terms cancel, as in differences of energies and
+// invariants.
 #pragma once
 
 #include <qd/dd_real.h>
@@ -13,11 +13,11 @@
 
 namespace hamflow {
 
-/// The two halves need not be neighbours: 1 + 1e-40 is a double-double. What spans up to 320 bits reads back from so
-/// many decimal digits; halves that are farther apart, more than 80 orders of magnitude, do not.
+/// The two halves need not be adjacent: 1 + 1e-40 is a double-double. Numbers that span up to 320 bits read back from
+/// this many decimal digits; numbers whose halves are more than 80 orders of magnitude apart do not.
 inline constexpr int wide_digits = 98;
 std::string written_wide(const dd_real& x);
-/// The nearest double to a decimal, and the nearest to the rest.
+/// The nearest double to a decimal, plus the nearest double to the rest.
 dd_real read_wide(std::string_view text);
 
 template <>
@@ -42,8 +42,8 @@ struct ExtendedTraits<dd_real> {
   static T multiply(const T& a, const T& b) { return a * b; }
   static T divide(const T& a, const T& b) { return T::accurate_div(a, b); }
   static T abs(const T& x) { return ::abs(x); }
-  // Where QD reads beyond a table (angles that are no number, or so large that its reduction has no digit left), prints
-  // a message, divides infinity by infinity, or squares what has no square, quad knows the value.
+  // quad computes the value in cases in which QD reads beyond a table (angles that are NaN or too large for its
+  // reduction), prints a message, divides infinity by infinity, or overflows in a square.
   static constexpr double largest_angle = 1e20;
   static constexpr double largest_exponent = 700;
   static constexpr double largest_side = 1e150;
@@ -64,7 +64,7 @@ struct ExtendedTraits<dd_real> {
     const bool has_square = is_below(x, largest_side) && is_below(y, largest_side) && side > 1 / largest_side;
     return has_square ? ::atan2(y, x) : rounded(::atan2q(widened(y), widened(x)));
   }
-  /// By the logarithm; of a number below 0 whole powers alone.
+  /// Computed with the logarithm; only whole powers for a number below 0.
   static T pow(const T& x, const T& y) {
     if (x.x[0] > 0 && std::isfinite(x.x[0])) return ::pow(x, y);
     const bool is_whole = ::floor(y) == y;

@@ -1,5 +1,5 @@
 // Positions and momenta on integer lattices: every kick and every drift adds an integer that is a pure function of
-// integers, hence is undone exactly by its mirror image. A palindromic splitting returns every bit.
+// integers, so that the mirrored action undoes it exactly. A palindromic splitting can be reversed bit for bit.
 // [LevesqueVerlet1993]
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace hamflow {
 
 /// s -> s * unit, s a 64-bit integer of less than 2^62 in size: the sum and the difference of two such integers always
-/// fit into 64 bits, so that leaving the range is found before anything overflows. Forces are computed in double, from
-/// the rounded reading of s or from the exact difference of two.
+/// fit into 64 bits, so that leaving the range is detected before an overflow. Forces are computed in double, from the
+/// rounded reading of s or from the exact difference of two.
 struct Lattice {
   using Real = double;
   using Stored = std::int64_t;
@@ -37,11 +37,11 @@ struct Lattice {
       return s;
     }
     Real read(Stored s) const { return static_cast<Real>(s) * unit; }
-    /// (a - b) unit. The integers are subtracted, which is exact, and then rounded: moving all by one vector of the
-    /// lattice changes no bit, and close neighbours far from the origin lose no digits.
+    /// (a - b) unit. The integers are subtracted exactly and then rounded, so that a common shift by a lattice vector
+    /// does not change a bit, and close neighbours far from the origin lose no digits.
     Real difference(Stored a, Stored b) const { return static_cast<Real>(a - b) * unit; }
     /// k = round(r / unit), to nearest, ties to even, which is odd: round(-x) = -round(x).
-    /// @return false, with k left as it was, unless r / unit is below `limit` <= 2^62 in size; false for NaN too
+    /// @return false, with k unchanged, unless |r / unit| is below `limit` <= 2^62; false for NaN, too
     bool units(Real r, Real limit, Stored& k) const {
       const Real scaled = r * per_unit;
       if (!(std::fabs(scaled) < limit)) return false;

@@ -13,8 +13,8 @@
 
 namespace hamflow {
 
-/// An MPFR number as a value. MPFR throws nothing: where memory ends, it ends the program. Said here, it spares what
-/// computes with such numbers a way out of the middle of every expression.
+/// An MPFR number with value semantics. MPFR does not throw; out of memory, it ends the program. Functions are declared
+/// noexcept, so that the compiler needs no unwinding code within expressions.
 class MpNumber {
  public:
   MpNumber() noexcept;  // 0
@@ -60,7 +60,7 @@ class MpDigits {
   mpfr_prec_t before_;
 };
 
-/// The decimal digits from which a number of so many bits reads back.
+/// The number of decimal digits from which a number with the given bits reads back.
 std::size_t decimal_places(mpfr_prec_t bits);
 
 template <>
@@ -105,7 +105,7 @@ struct ExtendedTraits<MpNumber> {
   static T pow(const T& x, const T& y) noexcept;
   static T pi() noexcept;
   static T read(std::string_view text);
-  /// As many decimal digits as read back as the same number.
+  /// The number in decimal, with enough digits to read back as the same number.
   static std::string written(const T& x);
   /// 1 and the next larger number differ by this.
   static T epsilon() noexcept;
@@ -122,7 +122,7 @@ inline double ExtendedTraits<MpNumber>::as<double>(const MpNumber& x) noexcept {
 
 using Mp = Extended<MpNumber>;
 
-/// As that of other numbers (core/math.hpp).
+/// log2 |x| as for other numbers (core/math.hpp).
 double binary_logarithm(const Mp& x);
 
 /// In a checkpoint: hexadecimal, with its precision.

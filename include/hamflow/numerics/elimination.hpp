@@ -1,5 +1,5 @@
-// Gaussian elimination with partial pivoting for number types that Eigen does not know: those with more digits than the
-// hardware has.   [GolubVanLoan2013, Sect. 3.4]
+// Gaussian elimination with partial pivoting for number types that Eigen does not support, that is, those with more
+// digits than hardware types.   [GolubVanLoan2013, Sect. 3.4]
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace hamflow::detail {
 
-/// b <- m^-1 b, both row after row, b with so many columns. Returns det m. A singular m shows as entries that are not
-/// finite.
+/// b <- m^-1 b, both stored row by row, b with the given number of columns. Returns det m. If m is singular, entries
+/// are not finite.
 template <class R>
 R eliminate(const R* m, R* b, std::size_t size, std::size_t columns) {
   std::vector<R, PoolAllocator<R>> a(m, m + size * size);

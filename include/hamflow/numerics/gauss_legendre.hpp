@@ -15,7 +15,7 @@ template <class T>
 class Extended;
 
 /// s points c = 1/2 + offset and weights b, exact for polynomials of degree 2 s - 1, ascending. Offsets and weights are
-/// symmetric bit for bit; c cannot be (1/2 + offset rounds), so what has to be symmetric is computed from the offsets.
+/// symmetric bit for bit; c cannot be, because 1/2 + offset rounds; so symmetric computations use the offsets.
 template <class R>
 struct GaussRule {
   int points = 0;
@@ -37,7 +37,7 @@ GaussRule<R> make_gauss_rule(int s) {
     if (2 * i + 1 == s) x = R(0);
     R derivative(0);
     for (int pass = 0; pass < 12;
-         ++pass) {  // quadratic from 3 digits: 5 passes reach any precision in use, 12 settle it
+         ++pass) {  // quadratic convergence from 3 digits: 5 passes reach any precision in use, 12 are always enough
       R previous(1);
       R value = x;
       for (int k = 2; k <= s; ++k) {
@@ -59,8 +59,8 @@ GaussRule<R> make_gauss_rule(int s) {
   }
   return rule;
 }
-/// The recurrence loses 10 roundings at 8 points and 400 at 64: where digits are all that is wanted, it is done in more
-/// of them and rounded once (src/numerics/gauss_rules.cpp).
+/// The recurrence loses 10 roundings with 8 points and 400 with 64, so it is computed with more digits and rounded once
+/// (src/numerics/gauss_rules.cpp).
 template <>
 GaussRule<Extended<dd_real>> make_gauss_rule<Extended<dd_real>>(int s);
 template <>
@@ -78,7 +78,7 @@ GaussRule<To> rounded(const GaussRule<From>& rule) {
 }
 }  // namespace detail
 
-/// The rule with s points, made once per number type. @param s 1 .. most_gauss_points
+/// The Gauss rule with s points, made once per number type. @param s 1 .. most_gauss_points
 template <class R>
 const GaussRule<R>& gauss_rule(int s) {
   if (s < 1 || s > most_gauss_points) {
@@ -89,7 +89,7 @@ const GaussRule<R>& gauss_rule(int s) {
       std::vector<GaussRule<R>> all(1);
       for (int k = 1; k <= most_gauss_points; ++k) {
         if constexpr (std::is_same_v<R, double>) {
-          // The roundings are those of long double, not of double.
+          // Computed in long double and rounded once.
           all.push_back(detail::rounded<double>(detail::make_gauss_rule<long double>(k)));
         } else {
           all.push_back(detail::make_gauss_rule<R>(k));
@@ -98,7 +98,7 @@ const GaussRule<R>& gauss_rule(int s) {
       return all;
     }();
     return rules[static_cast<std::size_t>(s)];
-  } else {  // in slow arithmetic each on first use; a run keeps its address
+  } else {  // in slow arithmetics made on first use; runs keep the address
     static thread_local std::map<std::pair<long, int>, GaussRule<R>> rules;
     const std::pair<long, int> key{precision_in_use<R>(), s};
     const auto found = rules.find(key);

@@ -1,6 +1,6 @@
-// Double exponential quadrature to rounding, for integrands that are analytic inside the interval; at its ends they may
-// be singular as long as they are integrable.   [TakahasiMori1974]   In long double, by Boost.Math, whose headers stay
-// in src/numerics/quadrature.cpp.
+// Double exponential quadrature to rounding, for integrands that are analytic inside the interval; integrable
+// singularities at the ends are allowed.   [TakahasiMori1974] In long double, by Boost.Math, whose headers stay in
+// src/numerics/quadrature.cpp.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@ struct Integral {
   long double error = 0;
 };
 
-/// The integral of f over an interval of the given length, not negative. f(from_left, to_right) gets the distances to
-/// both ends, each to full relative precision: what vanishes or is singular at an end is written with its distance. A
-/// value that is not finite counts as nothing (a point may fall on the end when f adds the distance to something).
+/// The integral of f over an interval of the given length, not negative. f(from_left, to_right) receives the distances
+/// to both ends, each with full relative precision, for functions that vanish or are singular at an end. A value that
+/// is not finite counts as 0 (a point may coincide with the end if f adds the distance to a number).
 Integral integrate_from_ends(const std::function<long double(long double, long double)>& f, long double length);
 
 /// The integral of f(x) from a to b.

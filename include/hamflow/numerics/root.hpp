@@ -7,10 +7,9 @@
 namespace hamflow {
 
 /// The x between a and b at which f changes its sign, to rounding of x: among the points at which f was evaluated the
-/// one with the smallest |f|. Positive a and b may differ by large factors: halving is then done on a logarithmic
-/// scale.
-/// @param at_a, at_b f(a) and f(b), of opposite signs, or 0: the zero is then that end. An infinity where only the sign
-/// is known: f is evaluated neither at a nor at b.
+/// one with the smallest |f|. Positive a and b may differ by large factors; bisection then uses a logarithmic scale.
+/// @param at_a, at_b f(a) and f(b), of opposite signs, or 0: the zero is then that end. Pass an infinity if only the
+/// sign is known; f is evaluated neither at a nor at b.
 double bracketed_root(const std::function<double(double)>& f, double a, double b, double at_a, double at_b);
 long double bracketed_root(const std::function<long double(long double)>& f, long double a, long double b,
                            long double at_a, long double at_b);

@@ -1,12 +1,12 @@
-// Typed Hamiltonians in C++ programs: a text gives a problem like any other.
+// Typed Hamiltonians in C++ programs: makes a problem from a text.
 //
 //     const auto pendulum = formula_problem("p^2/2 - k*cos(q)", {{"k", "2"}});
 //     auto run = simulate(pendulum, Cg{}, {0.5}, {0.0}, 0.1);
 //
-// What H offers is found when the text is read, but a C++ type has to be known before: formula_problem takes any H, and
-// what it gives has gradient and Hessian, for implicit and Runge-Kutta methods. separable_formula_problem is for
-// splitting methods too and takes H = T(p) + V(q), natural_formula_problem H = p^T M^-1 p/2 + V(q). By name
-// (run/catalog.hpp) every method that applies is found: request.problem = "formula", request.variant =
+// The capabilities of H are known when the text is parsed, but the C++ type must be known before. formula_problem
+// accepts any H and has gradient and Hessian, for implicit and Runge-Kutta methods. separable_formula_problem accepts H
+// = T(p) + V(q), also for splitting methods; natural_formula_problem accepts H = p^T M^-1 p/2 + V(q). By name
+// (run/catalog.hpp) all methods that apply are available: request.problem = "formula", request.variant =
 // formula_choices(texts).
 #pragma once
 
@@ -17,7 +17,7 @@ namespace hamflow {
 template <Capability c>
 using FormulaProblem = AnyProblem<double, c, Trace<double>, Dual<double, 1>>;
 
-/// @throws FormulaError when a text is wrong, or the Hamiltonian does not have what `c` promises
+/// @throws FormulaError if a text is wrong, or the Hamiltonian does not have the capability c
 template <Capability c>
 FormulaProblem<c> typed_problem(const FormulaTexts& texts) {
   auto model = std::make_shared<const formula::Model>(texts);
@@ -28,7 +28,7 @@ FormulaProblem<c> typed_problem(const FormulaTexts& texts) {
           std::make_shared<FormulaFunctions<double, Dual<double, 1>>>(bound)};
 }
 
-/// Any H. @throws FormulaError when a text is wrong
+/// Any H. @throws FormulaError if a text is wrong
 inline FormulaProblem<Capability::smooth> formula_problem(const FormulaTexts& texts) {
   return typed_problem<Capability::smooth>(texts);
 }

@@ -1,6 +1,6 @@
 // Number types with more digits than double, in one wrapper: Extended<T> around QD's dd_real, libquadmath's __float128
-// or an MPFR number gives them the same operators, conversions and functions, so that a problem or a method never sees
-// which one it computes in. What differs between them is in ExtendedTraits<T> (double_double.hpp, quad.hpp, mp.hpp).
+// or an MPFR number gives them the same operators, conversions and functions, so that problems and methods do not
+// depend on the type. The differences are in ExtendedTraits<T> (double_double.hpp, quad.hpp, mp.hpp).
 #pragma once
 
 #include <compare>
@@ -13,8 +13,8 @@
 
 namespace hamflow {
 
-/// What a library provides for its numbers: made(x) from any built-in number, as<U>(x) back, add, subtract, multiply,
-/// divide, the elementary functions, read(text), written(x) with all digits, and the limits.
+/// The functions that a library provides for its numbers: made(x) from any built-in number, as<U>(x) back, add,
+/// subtract, multiply, divide, the elementary functions, read(text), written(x) with all digits, and the limits.
 template <class T>
 struct ExtendedTraits;
 
@@ -78,7 +78,7 @@ struct IsExtended : std::false_type {};
 template <class T>
 struct IsExtended<Extended<T>> : std::true_type {};
 
-/// All the digits of a number: they read back as the same one.
+/// All digits of a number, which read back as the same number.
 template <class T>
 std::string written_digits(const Extended<T>& x) {
   return ExtendedTraits<T>::written(x.value);

@@ -1,5 +1,5 @@
-// Dense linear systems: Cramer's rule for 2 x 2, which is forward stable there [Higham2002, Sect. 1.10.1] and the heart
-// of Newton in the plane, else Eigen's closed-form inverses up to 4 x 4 and LU with partial pivoting above.
+// Dense linear systems: Cramer's rule for 2 x 2, which is forward stable there [Higham2002, Sect. 1.10.1] and dominates
+// Newton in the plane; Eigen's closed-form inverses up to 4 x 4; LU with partial pivoting for larger systems.
 #pragma once
 
 #include "hamflow/core/math.hpp"
@@ -35,7 +35,7 @@ void invert_small(const Matrix<R, N>& m, Matrix<R, N>& out);
 template <class R, std::size_t N>
 R determinant_small(const Matrix<R, N>& m);
 
-/// The entries row after row, as those of any size stand already.
+/// The entries row by row, as dynamic matrices store them.
 template <class R>
 const Matrix<R, dynamic>& flat(const Matrix<R, dynamic>& m) {
   return m;
@@ -97,7 +97,7 @@ R determinant(const Matrix<R, N>& m) {
   }
 }
 
-/// ||m|| ||m^-1|| with the largest row sums of absolute values; not finite where m is singular.
+/// ||m|| ||m^-1|| with the largest row sums of absolute values; not finite if m is singular.
 template <class R, std::size_t N>
 R condition_number(const Matrix<R, N>& m) {
   const auto largest_row_sum = [](const Matrix<R, N>& x) {
@@ -105,7 +105,7 @@ R condition_number(const Matrix<R, N>& m) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       R sum(0);
       for (std::size_t j = 0; j < x.size(); ++j) sum += abs(x[i][j]);
-      largest = sum <= largest ? largest : sum;  // NaN is kept
+      largest = sum <= largest ? largest : sum;  // keeps NaN
     }
     return largest;
   };

@@ -1,8 +1,8 @@
 // Elliptic integrals of the first kind and Jacobi's elliptic functions, parameter m = k^2 in [0, 1].
 //     F(phi, m) = integral_0^phi dx/sqrt(1 - m sin^2 x),   K(m) = F(pi/2, m),   u = F(am u, m),
 //     sn u = sin am u,   cn u = cos am u,   dn u = sqrt(1 - m sn^2 u).                    [DLMF, Sect. 19.2, 22.16]
-// Near m = 1 everything depends on 1 - m, which 1 - m itself has lost; the forms `_of_complement` take m1 = 1 - m and
-// keep its digits. Near m = 0 they lose nothing either: all functions are smooth there.
+// Near m = 1 all results depend on 1 - m, whose digits are lost in m; the functions `_of_complement` take m1 = 1 - m
+// and keep its digits. They are also accurate near m = 0, where all functions are smooth.
 #pragma once
 
 #include <limits>
@@ -104,8 +104,8 @@ R complete_k(R m) {
   return complete_k_of_complement(R(1) - m);
 }
 
-/// F of the angle in [-pi/2, pi/2] with sine s and cosine c >= 0, which both are taken as they are: near m = 1 and a
-/// quarter turn F depends on c, not on the angle.   [DLMF, (19.25.5)]
+/// F of the angle in [-pi/2, pi/2] with sine s and cosine c >= 0. Both are arguments, because near m = 1 and a quarter
+/// turn F depends on c, which the angle does not determine accurately.   [DLMF, (19.25.5)]
 template <class R>
 R incomplete_f_of_complement(R s, R c, R m1) {
   if (c == R(0) && m1 == R(0)) return copysign(std::numeric_limits<R>::infinity(), s);
@@ -133,7 +133,7 @@ R incomplete_f(R phi, R m) {
   return turns == R(0) ? rest : R(2) * turns * complete_k(m) + rest;
 }
 
-/// sn, cn, dn, am of u from m1 = 1 - m, by Gauss' transformation of the ratio cn/sn up the ladder of the mean. Every
+/// sn, cn, dn, am of u from m1 = 1 - m, by Gauss' transformation of the ratio cn/sn along the steps of the mean. Every
 /// operation adds or multiplies positive numbers, so that sn, cn and dn keep their relative accuracy; what remains is
 /// the rounding of the phase u.   [Bulirsch1965]
 template <class R>

@@ -1,4 +1,4 @@
-// Products whose rounding error is known.   [Dekker1971]
+// Products with their rounding errors.   [Dekker1971]
 #pragma once
 
 #include <limits>
@@ -7,12 +7,12 @@
 namespace hamflow {
 
 namespace detail {
-/// x as a sum of two numbers of half its digits each, whose products are exact.
+/// x as a sum of two numbers with half of its digits each, whose products are exact.
 template <class R>
 struct Halves {
   R high;
   R low;
-  /// Inlined always: a call in the middle of an iteration empties the registers, which costs a step of cg a fifth.
+  /// Always inlined: a call within the iteration spills the registers, which costs a fifth of a step of cg.
   [[gnu::always_inline]] explicit constexpr Halves(R x) {
     constexpr R splitter = static_cast<R>(1ULL << ((std::numeric_limits<R>::digits + 1) / 2)) + 1;
     const R large = splitter * x;
@@ -21,18 +21,18 @@ struct Halves {
   }
 };
 
-/// Sums over the Gauss points are taken of kappa b_l, and multiplied by h/kappa in the end. The rounding of that
-/// product decides whether the last correction of Newton, which is mostly smaller, counts or is lost; so that it counts
-/// on average, what is rounded has to have random digits, whatever h is. With h = 1/8 alone there would be none. The
-/// golden ratio is the number whose multiples are spread most evenly.
+/// kappa: sums over the Gauss points use the weights kappa b_l and are multiplied by h/kappa at the end. The rounding
+/// of that product decides whether the last correction of Newton, which is usually smaller, counts or is lost. For it
+/// to count on average, the product must have random digits for any h; with h = 1/8 it would have none. The multiples
+/// of the golden ratio are distributed most evenly.
 template <class Real>
 inline Real golden_ratio() {
   return Real(1.6180339887498949);
 }
 }  // namespace detail
 
-/// a b - product, where `product` is a b rounded. With hardware's types below 2^900 and no underflow; 0 beyond, and in
-/// others, which have digits to spare.
+/// a b - product, where `product` is a b rounded. For hardware types below 2^900 without underflow; 0 beyond that and
+/// for other types, which have enough digits.
 template <class R>
 [[gnu::always_inline]] constexpr R product_error(const R& a, const R& b, const R& product) {
   if constexpr (std::is_floating_point_v<R>) {
@@ -40,7 +40,7 @@ template <class R>
     const detail::Halves<R> y(b);
     const R lost = ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low;
     if (lost == lost) [[likely]]
-      return lost;  // no half has overflown
+      return lost;  // no half has overflowed
   }
   return R(0);
 }

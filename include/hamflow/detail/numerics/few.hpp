@@ -1,6 +1,5 @@
-// A vector and a matrix of few numbers, stored in place, whose size is known at run time: what a Newton iteration works
-// with when its equations are recorded, so that one compiled iteration serves systems of several sizes at the speed of
-// fixed ones.
+// A small vector and a small matrix, stored in place, with a size chosen at run time. Newton's iteration of recorded
+// equations uses them, so that one compiled iteration serves systems of several sizes at the speed of fixed sizes.
 #pragma once
 
 #include "hamflow/core/error.hpp"
@@ -8,7 +7,7 @@
 
 namespace hamflow {
 
-/// At most `most` numbers; a value.
+/// A vector of at most `most` numbers, with value semantics.
 struct SmallVector {
   static constexpr std::size_t most = 6;
   using value_type = double;
@@ -25,12 +24,12 @@ struct SmallVector {
   void archive(Archive& ar) {
     ar(entry, count);
     if constexpr (Archive::reading) {
-      if (count > most) throw Error("saved bytes hold a vector of another size");
+      if (count > most) throw Error("the saved bytes hold a vector of another size");
     }
   }
 };
 
-/// A square matrix.
+/// A small square matrix.
 struct SmallRows {
   double entry[SmallVector::most][SmallVector::most];
   std::size_t count = 0;

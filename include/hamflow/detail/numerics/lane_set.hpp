@@ -4,7 +4,7 @@
 
 namespace hamflow {
 
-/// The instructions that lanes are made of. Results do not depend on it.
+/// The instruction set of lanes. Results do not depend on it.
 enum class LaneSet { none, generic, avx2, avx512 };
 
 constexpr std::string_view name(LaneSet set) {

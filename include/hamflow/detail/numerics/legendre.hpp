@@ -1,8 +1,8 @@
 // Orthonormal shifted Legendre polynomials and their integrals.   [BrugnanoIavernaroTrigiante2010, Sect. 2]
 //     int_0^1 P_i P_j = delta_ij,   P_0 = 1,   I_j(c) = int_0^c P_j = xi_(j+1) P_(j+1)(c) - xi_j P_(j-1)(c),  j > 0,
 //     xi_j = 1/(2 sqrt(4 j^2 - 1)),   I_0(c) = c.
-// All of them are functions of x = c - 1/2, even or odd there to the last bit: what a step adds up at points that lie
-// symmetrically is then symmetric, too.
+// All are functions of x = c - 1/2, even or odd to the last bit, so that sums of a step over symmetric points are
+// symmetric, too.
 #pragma once
 
 #include <vector>

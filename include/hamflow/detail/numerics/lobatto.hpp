@@ -1,9 +1,9 @@
 // Lobatto quadrature on [0, 1] and the collocation matrices of the pair IIIA, IIIB.   [HLW2006, Sect. II.1.4, II.2.2]
 //     c_1 = 0, c_s = 1, between them the zeros of P'_(s-1), b_i = 1/(s (s - 1) P_(s-1)(2 c_i - 1)^2): exact to degree
 //     2 s - 3.   a_ij = int_0^(c_i) l_j of IIIA,   b_i A_ij + b_j a_ji = b_i b_j for A of IIIB.
-// With a_ij/b_j = 1/2 + nu_ij that condition says A_ij/b_j = 1/2 - nu_ji: whatever nu is rounded to, the pair that
-// takes nu for both is symplectic. The orthonormal shifted Legendre polynomials are orthogonal in the discrete sense
-// too, with the norm gamma = (2 s - 1)/(s - 1) of the last one and 1 of the others, and so
+// With a_ij/b_j = 1/2 + nu_ij this condition means A_ij/b_j = 1/2 - nu_ji: a pair that uses the same nu for both is
+// symplectic, whatever the rounding of nu. The orthonormal shifted Legendre polynomials are orthogonal in the discrete
+// sense too, with the norm gamma = (2 s - 1)/(s - 1) of the last one and 1 of the others, and so
 //     nu_ij = int_(1/2)^(c_i) 1 + sum_(m>0) P_m(c_j) I_m(c_i)/gamma_m,   I_m(c) = int_0^c P_m.
 #pragma once
 
@@ -88,7 +88,7 @@ LobattoPair<R> made_lobatto_pair(int stages) {
 }
 }  // namespace detail
 
-/// @param stages 2 .. 10, and more. Made once for each number type; its address stays.
+/// @param stages 2 .. 10, and more. Made once for each number type; the address does not change.
 template <class R>
 const LobattoPair<R>& lobatto_pair(int stages) {
   static std::mutex mutex;
@@ -97,7 +97,7 @@ const LobattoPair<R>& lobatto_pair(int stages) {
   const std::pair key{precision_in_use<R>(), stages};
   const auto found = pairs.find(key);
   if (found != pairs.end()) return found->second;
-  if constexpr (std::is_same_v<R, double>) {  // the roundings are those of long double
+  if constexpr (std::is_same_v<R, double>) {  // computed in long double and rounded once
     const auto fine = detail::made_lobatto_pair<long double>(stages);
     LobattoPair<double> pair{stages, {}, {}, {}};
     for (const long double x : fine.offset) pair.offset.push_back(static_cast<double>(x));

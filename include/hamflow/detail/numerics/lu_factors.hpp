@@ -1,10 +1,9 @@
-// LU factors that are kept: for several right sides, one after the other, of any number type. [GolubVanLoan2013,
-// Sect. 3.4]
+// LU factors for several right sides, one after the other, in any number type. [GolubVanLoan2013, Sect. 3.4]
 //
-// Pivoting is by threshold [DuffErismanReid2017, Chap. 5]: rows are exchanged only where an entry below the diagonal is
-// more than 16 times as large. Newton's tangents are near the identity, but the units of positions and momenta may make
-// entries of one row larger than those of another by any factor; which one is the larger then changes from step to
-// step, and a recorded step (src/engine/recorded_iteration.hpp) is good for one order of rows only.
+// Pivoting is by threshold [DuffErismanReid2017, Chap. 5]: rows are exchanged only if an entry below the diagonal is
+// more than 16 times as large. The Jacobians are near the identity, but the units of positions and momenta may scale
+// rows by any factor. With full pivoting the order of rows would then change from step to step, and a recorded step
+// (src/engine/recorded_iteration.hpp) is valid for only one order.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ namespace hamflow {
 template <class R>
 class LuFactors {
  public:
-  /// Of any square matrix. A singular one shows as solutions that are not finite.
+  /// Factors any square matrix. If it is singular, solutions are not finite.
   void factor(const Matrix<R, dynamic>& m) {
     lu_ = m;
     const std::size_t size = m.size();

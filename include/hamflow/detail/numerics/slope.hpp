@@ -1,10 +1,11 @@
-// Differences of functions without cancellation. A number that goes from x(0) to x(t) carries both and its slope
+// Differences of functions without cancellation. A number that changes from x(0) to x(t) carries both values and its
+// slope
 //     s = (x(t) - x(0))/t,   x'(0) at t = 0,
-// by which t itself never needs to be known. A function has the slope f[x(0), x(t)] s with its divided difference
+// so that t itself is not needed. A function has the slope f[x(0), x(t)] s with its divided difference
 //     f[a, b] = (f(b) - f(a))/(b - a),   f[a, a] = f'(a),
 // for which each elementary function has a formula that rounds like f': sqrt[a, b] = 1/(sqrt a + sqrt b), for example.
-// [KrawczykNeumaier1985]   The change of an energy in a step, and its limit where nothing changes, are found in this
-// way to the rounding of the changes of its terms; subtracting two energies leaves the rounding of the energy itself.
+// [KrawczykNeumaier1985] The change of an energy in a step, and its limit for a vanishing step, then have only the
+// rounding of the changes of its terms; the difference of two energies would have the rounding of the energy.
 #pragma once
 
 #include "hamflow/core/dual.hpp"
@@ -84,7 +85,7 @@ S difference_of_tanh(const S& a, const S& b) {
 }
 }  // namespace detail
 
-/// A number and its slope. @tparam S what it is made of, dual numbers too
+/// A number and its slope. @tparam S any number type, also dual numbers
 template <class S>
 struct Slope {
   S first{};  // x(0)
@@ -180,7 +181,7 @@ Slope<S> acos(const Slope<S>& x) {
   const Slope<S> one(S(base_scalar<S>(1)));
   return (one + one) * atan(sqrt((one - x) / (one + x)));
 }
-/// The angle of (x, y), by the half angle formula that does not cancel at first.
+/// The angle of (x, y), by the half-angle formula without cancellation at x(0).
 template <class S>
 Slope<S> atan2(const Slope<S>& y, const Slope<S>& x) {
   const Slope<S> two(S(base_scalar<S>(2)));
@@ -217,7 +218,7 @@ Slope<S> pow(const Slope<S>& x, const base_scalar<S>& c) {
   return {pow(x.first, c), pow(x.last, c), exp(exponent).slope};
 }
 
-/// Functions without a row of their own above have no divided difference here.
+/// Functions that are not defined above have no divided difference.
 #define HAMFLOW_SLOPE_OF_known(name)
 #define HAMFLOW_SLOPE_OF_unknown(name)                                                                      \
   template <class S>                                                                                        \

@@ -1,5 +1,5 @@
-// A recording (detail/core/tape.hpp) repeated in numbers of another type: slopes above all (detail/numerics/slope.hpp),
-// so that a problem needs no functions of that type.
+// Repeats a recording (detail/core/tape.hpp) in another number type, mainly slopes (detail/numerics/slope.hpp), so that
+// a problem does not need functions of that type.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace hamflow {
 
-/// The values of all nodes at the inputs, which the first of them hold already.
-/// @param nodes as many as the tape has   @return whether its guards hold at both ends; the values are of no use else
+/// Computes the values of all nodes from the inputs, which are the first nodes.
+/// @param nodes as many as the tape has @return whether its guards hold at both ends; otherwise the values are invalid
 template <class R, class S>
 bool replay(const Tape<R>& tape, Vector<Slope<S>, dynamic>& nodes) {
   using Number = Slope<S>;

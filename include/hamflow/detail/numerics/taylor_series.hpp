@@ -2,7 +2,7 @@
 // up to k all nodes follow up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k). [JorbaZou2005, Prop. 2.1;
 // GriewankWalther2008, tables 13.1, 13.2]
 //
-// Time is counted in units of the caller: z(t0 + s unit) = sum_k z_k s^k.
+// Time is in units chosen by the caller: z(t0 + s unit) = sum_k z_k s^k.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ namespace hamflow {
 
 namespace detail {
 
-/// sum_{j=first}^{last} a[j] b[k - j]. Four sums side by side: one would wait for each of its additions.
+/// sum_{j=first}^{last} a[j] b[k - j]. Four parallel sums, because a single sum would be a chain of dependent
+/// additions.
 template <class R>
 R convolution(const R* a, const R* b, std::size_t k, std::size_t first, std::size_t last) {
   if (last + 1 < first + 4) {
@@ -75,7 +76,7 @@ class TaylorSeries {
 
   /// Coefficients 1..order of the inputs, from their coefficients 0. f_i is output i.
   /// In many digits it may be stopped (StopQuestion); the coefficients are then incomplete.
-  /// @return false: at this state a guard of the tape does not hold, and nothing was computed
+  /// @return false, with nothing computed, if a guard of the tape does not hold at this state
   template <class U>
   bool solve(const Tape<Constant>& tape, std::size_t order, const U& unit) {
     for (std::size_t k = 0; k < order; ++k) {
@@ -167,7 +168,7 @@ class TaylorSeries {
       case Operation::power_constant:
         y[k] = k == 0 ? R(pow(a[0], constant())) : power(a, y, constant(), k);
         break;
-      default:  // of exact recordings, and functions whose coefficients nobody knows
+      default:  // exact recordings, and functions without known coefficients
         Trace<Constant>::refuse();
     }
   }

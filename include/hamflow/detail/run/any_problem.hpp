@@ -1,6 +1,7 @@
-// A problem behind virtual calls: what runs in more digits than double, and what the verification looks at, is compiled
-// once for each method and number type, not once for each problem too. One indirect call per force is lost beside the
-// cost of such arithmetic. Steps in double are recorded through it (recorded_step.hpp) and run without any call.
+// A problem behind virtual calls. Methods with more digits than double, and the step maps of the verification, are
+// compiled once for each method and number type instead of once for each problem. An indirect call per force costs
+// little compared with such arithmetic. Steps in double are recorded through it (recorded_step.hpp) and run without
+// calls.
 #pragma once
 
 #include <memory>
@@ -18,24 +19,24 @@
 
 namespace hamflow {
 
-/// Number types that only record or carry first derivatives: no Hessian is compiled for them.
+/// Number types that only record, or carry first derivatives. No Hessian is compiled for them.
 template <class S>
 inline constexpr bool first_derivatives_only = false;
 template <class R>
 inline constexpr bool first_derivatives_only<Trace<R>> = !std::is_same_v<R, double>;
-/// Number types in which factors of kicks and drifts go into the functions, as in typed code in double, whose bits are
-/// wanted.
+/// Number types for which the functions receive the factors of kicks and drifts, as in typed code in double, to get the
+/// same bits.
 template <class S>
 inline constexpr bool takes_factors = std::is_same_v<S, double> || std::is_same_v<S, Trace<double>>;
 
-/// The functions of one Hamiltonian for states of type S. What its capabilities do not promise is never called.
+/// The functions of one Hamiltonian for states of type S. Functions outside its capabilities are never called.
 template <class S>
 class Functions {
  public:
   using V = Vector<S, dynamic>;
   using M = Matrix<S, dynamic>;
   virtual ~Functions() = default;
-  // From the pool: the problem of a cyclic one without its last coordinate is made anew in every step.
+  // From the pool, because the reduced problem of a cyclic problem is made in every step.
   static void* operator new(std::size_t bytes) { return Pool::take(bytes); }
   static void operator delete(void* memory, std::size_t bytes) { Pool::give(memory, bytes); }
   virtual S energy(const V& q, const V& p) const = 0;
@@ -44,11 +45,11 @@ class Functions {
   virtual bool has_parts() const = 0;  // H = T + V, by which kinetic and potential are there
   virtual void velocity(const V& p, V& v) const = 0;
   virtual void force(const V& q, V& f) const = 0;
-  /// M^-1 f of a T quadratic in p. The velocity, but that the time of H(q, p, t) moves whatever f is.
+  /// M^-1 f for T quadratic in p. It is the velocity, except that the entries of the time of H(q, p, t) are 0.
   virtual void inverse_mass_times(const V& f, V& out) const { velocity(f, out); }
-  /// Whether the last coordinates carry the time (detail/core/step_clock.hpp).
+  /// Whether the last coordinates hold the time (detail/core/step_clock.hpp).
   virtual bool has_clock() const { return false; }
-  // Of a problem that has them. A factor is a number of the recording where steps of any length are recorded.
+  // For problems that define them. If steps of any length are recorded, a factor is a number of the recording.
   virtual bool has_scaled_velocity() const = 0;
   virtual bool has_scaled_force() const = 0;
   virtual void scaled_velocity(const S& factor, const V& p, V& v) const = 0;
@@ -56,7 +57,7 @@ class Functions {
   virtual void gradient(const V& q, const V& p, V& dq, V& dp) const = 0;
   virtual void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const = 0;
   virtual void force_and_hessian(const V& q, V& f, M& h) const = 0;
-  // At `count` points in one call, as detail/methods/implicit/points.hpp has them; here one after the other.
+  // At `count` points in one call, in the layout of detail/methods/implicit/points.hpp; here one after the other.
   virtual void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const {
     V x = V(size);
     V y = x;
@@ -108,7 +109,7 @@ class Functions {
   virtual V invariants(const V& q, const V& p, const S& t) const = 0;
   virtual std::vector<std::size_t> invariant_sizes() const = 0;
   virtual std::string label() const = 0;  // of the problem and its choices, for saved states
-  // Of constraints. The last groups of invariants are then their residuals, g and g' M^-1 p, which ought to be 0.
+  // For constraints. The last groups of invariants are then their residuals, g and g' M^-1 p, which should be 0.
   virtual std::size_t residual_groups() const { return 0; }
   virtual V constraints(const V&) const { no_constraints(); }
   virtual Gradients<S, dynamic> constraint_gradients(const V&) const { no_constraints(); }
@@ -130,7 +131,7 @@ class Functions {
   [[noreturn]] static void no_constraints() { throw std::logic_error("hamflow: the problem has no constraints"); }
 };
 
-/// Shared by their base, or the library's counting of references would be compiled for each problem.
+/// Shared through the base class; otherwise reference counting would be compiled for each problem.
 template <class S>
 std::shared_ptr<const Functions<S>> shared_functions(const Functions<S>* functions) {
   return {functions, std::default_delete<const Functions<S>>{}, PoolAllocator<S>{}};
@@ -225,7 +226,7 @@ class FunctionsOf final : public Functions<S> {
     put(by_p, dp);
   }
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
-    // With traces, for lanes, where it is by hand.
+    // With traces, for lanes, if it is written by hand.
     if constexpr (Smooth<P> && has_hessian && (std::is_same_v<S, RealOf<P>> || HasHessian<P, S>)) {
       const X x = in(q);
       Matrix<S, n> by_qq = zero_matrix(x);
@@ -251,7 +252,7 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
-  // In double without a virtual call for each point; in other number types that is lost beside their arithmetic.
+  // In double without a virtual call for each point; in other number types such calls cost little.
   void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const override {
     if constexpr (Separable<P> && in_double) {
       hamflow::forces_at(problem_, count, q, f);
@@ -395,8 +396,8 @@ std::shared_ptr<const Functions<S>> functions_of(const P& problem) {
   return shared_functions<S>(new FunctionsOf<P, S>(problem));
 }
 
-/// A problem of dynamic size made of functions; a value like any problem, whose copies share them.
-/// @tparam States the number types of states, R the first   @tparam capability what the problem behind it offers
+/// A problem of dynamic size that calls these functions. It has value semantics; copies share the functions.
+/// @tparam States the number types of states, R the first @tparam capability the capabilities of the problem
 template <class R, Capability capability, class... Others>
 class AnyProblem {
  public:
@@ -447,11 +448,11 @@ class AnyProblem {
   void inverse_mass_times(const Vector<S, dynamic>& f, Vector<S, dynamic>& out) const requires quadratic_kinetic {
     on<S>().inverse_mass_times(f, out);
   }
-  /// |T| + |V| where H is their sum, which is known at run time also where the type does not promise it; else 0.
+  /// |T| + |V| if H = T + V, which is known at run time also if the type does not show it; else 0.
   R size_of_parts(const Vector<R, dynamic>& q, const Vector<R, dynamic>& p) const {
     return on<R>().has_parts() ? R(abs(on<R>().kinetic(p)) + abs(on<R>().potential(q))) : R(0);
   }
-  /// T where H = T + V, else p . dH/dp, both without the momentum of the time.
+  /// T if H = T + V, else p . dH/dp, both without the momentum of the time.
   template <class S>
   S kinetic_part(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p) const {
     const Functions<S>& functions = on<S>();
@@ -469,8 +470,7 @@ class AnyProblem {
     for (std::size_t i = 0; i < moving; ++i) sum += p[i] * dp[i];
     return sum;
   }
-  /// Whether the functions of a factor are there, which is known at run time only; their bits are not those of
-  /// products.
+  /// Whether there are scaled functions, known at run time; their bits differ from those of products.
   bool has_scaled_velocity() const requires(separable&& takes_factors<R>) { return on<R>().has_scaled_velocity(); }
   bool has_scaled_force() const requires(separable&& takes_factors<R>) { return on<R>().has_scaled_force(); }
   template <class S>
@@ -526,7 +526,7 @@ class AnyProblem {
   }
   const std::vector<std::size_t>& invariant_sizes() const { return *invariant_sizes_; }
   std::string label() const { return on<R>().label(); }
-  /// How many of the last invariants are residuals of constraints: 2 or none, which is known at run time only.
+  /// The number of last invariants that are residuals of constraints, 2 or 0, known at run time.
   std::size_t residual_groups() const { return on<R>().residual_groups(); }
   template <class S>
   Vector<S, dynamic> constraints(const Vector<S, dynamic>& q) const requires constrained {
@@ -552,12 +552,12 @@ class AnyProblem {
                    Vector<S, dynamic>& p) const requires charge {
     on<S>().momentum_of(q, v, p);
   }
-  /// Of a problem that has it, which is known at run time only.
+  /// For problems that define it, which is known at run time.
   template <class S>
   S distance_rate(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v) const {
     return on<S>().distance_rate(q, v);
   }
-  /// Whether states of this number type can be asked about.
+  /// Whether the functions exist for states of this number type.
   template <class S>
   static constexpr bool knows = (std::is_same_v<S, R> || ... || std::is_same_v<S, Others>);
   Vector<R, dynamic> rotation() const requires charge { return on<R>().rotation(); }

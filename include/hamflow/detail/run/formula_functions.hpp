@@ -1,5 +1,5 @@
-// The functions of a typed Hamiltonian behind virtual calls (detail/run/any_problem.hpp): what it offers is known when
-// its text has been read, not when this is compiled.
+// The functions of a typed Hamiltonian behind virtual calls (detail/run/any_problem.hpp). Its capabilities are known
+// when its text is parsed, not at compile time.
 #pragma once
 
 #include "hamflow/detail/formula/bound_model.hpp"
@@ -38,7 +38,8 @@ class FormulaFunctions final : public Functions<S> {
   void scaled_force(const S& factor, const V& q, V& f) const override {
     model_->template scaled_force<S>(factor, q, f);
   }
-  /// With constraints that of the motion on them, and no gradient: dH/dq + g'^T lambda(q, p), dH/dp.
+  /// With constraints this is the field of the motion on them, dH/dq + g'^T lambda(q, p), dH/dp, which is not a
+  /// gradient.
   void gradient(const V& q, const V& p, V& dq, V& dp) const override {
     model_->template gradient<S>(q, p, dq, dp);
     if (residual_groups() > 0) add_constraint_forces(q, dq, dp);
@@ -92,7 +93,7 @@ class FormulaFunctions final : public Functions<S> {
 
  private:
   std::size_t count() const { return model_->model().structure().constraints; }
-  /// From d^2 g/dt^2 = 0, without a derivative of H of second order.   [Sonnleitner2010, p. 22]
+  /// From d^2 g/dt^2 = 0, without second derivatives of H.   [Sonnleitner2010, p. 22]
   /// @param dq dV/dq, then with the constraints' part   @param v the velocity
   void add_constraint_forces(const V& q, V& dq, const V& v) const {
     const Gradients<S, dynamic> rows = constraint_gradients(q);
@@ -114,7 +115,7 @@ class FormulaFunctions final : public Functions<S> {
   TypedCentre centre_;
 };
 
-/// What a typed Hamiltonian offers to methods.
+/// The capabilities of a typed Hamiltonian.
 inline Capability capabilities_of(const FormulaStructure& structure) {
   Capability all = Capability::smooth;
   if (structure.constraints > 0) return all | Capability::constrained;  // its field is not that of T + V
@@ -123,7 +124,7 @@ inline Capability capabilities_of(const FormulaStructure& structure) {
   if (structure.quadratic_kinetic && !structure.time) all = all | Capability::quadratic_kinetic;
   return all;
 }
-/// @throws FormulaError when it does not offer `wanted`
+/// @throws FormulaError if it does not have the capability `wanted`
 inline void require_of_formula(const FormulaStructure& structure, Capability wanted) {
   if (includes(capabilities_of(structure), wanted)) return;
   throw FormulaError(FormulaKeys::hamiltonian,
