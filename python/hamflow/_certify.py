@@ -26,7 +26,7 @@ _step_problems = {
 
 
 class LogCertificate:
-    """What the energies of a log show.
+    """The result of certify() for a log.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ def _column(x: npt.ArrayLike, name: str) -> Numbers:
 
 
 def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None) -> LogCertificate:
-    """Judges the energies that any program has recorded, by the rules of a run's certificate.
+    """Classifies the energy error in the log of any program, by the rules of a run's certificate.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None)
 
 
 class StepCertificate:
-    """What a step was measured to do on a problem.
+    """The measured properties of a step on a problem.
 
     Attributes
     ----------
@@ -186,7 +186,7 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
     symplectic, symmetric : bool, optional
         The claim. A property without a claim is measured, but not compared.
     preserves : str or sequence of str, optional
-        What is claimed to be kept to rounding: "energy", and the invariants of the problem, as "angular_momentum".
+        Quantities that are claimed to be conserved to rounding: "energy", and invariants such as "angular_momentum".
 
     Returns
     -------
@@ -204,8 +204,8 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
     -----
     Errors of single steps are measured against Taylor series in long double. The Jacobian comes from central differences of
     order 6 with three difference lengths, whose disagreement is its error bound [HLW2006, Def. VI.2.1].
-    A defect of the size of rounding is True, one of the size of the step's error is False, and what is between, as with
-    equations that are solved to a coarse tolerance or steps in single precision, is None. Some 2000 steps are taken.
+    A property is True if its defect is at rounding level, False if the defect is as large as the error of the step, and
+    None in between, e.g. for equations solved to a coarse tolerance or single precision. Some 2000 steps are taken.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Work and precision: what accuracy costs with several methods."""
+"""Work-precision comparison of methods."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Compare:
         return draw(self._report.page(), ax)
 
     def figure(self, file: str | os.PathLike[str]) -> None:
-        """Draws the same by gnuplot: .svg, .pdf or .png."""
+        """Draws the same figure with gnuplot into a file .svg, .pdf or .png."""
         self._report.draw(os.fspath(file))
 
     def to_pandas(self) -> Any:

@@ -1,4 +1,4 @@
-"""Runs and scenarios in the other coordinates of their problem."""
+"""Converts runs, scenarios and states to other coordinates."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ def convert(given: Any, /, *, to: str, method: str | None = None, digits: bool =
 
 
 def convert(given: Any, /, *, to: str, start: str | None = None, method: str | None = None, digits: bool = False) -> Any:
-    """Converts a run, a scenario or states to other coordinates of a problem. Momenta change with positions; H stays.
+    """Converts a run, a scenario or states to other coordinates. The change is canonical, so H keeps its value.
 
     Parameters
     ----------
     given : Run, folder of a run or its run.h5; Scenario, dict of tables or name of a TOML file; or (q, p)
         q and p have the shape (d,) or (n, d).
     to : str
-        Such as "cartesian" or "polar" of a central force, "absolute" or "relative" of a double pendulum.
+        Such as "cartesian" or "polar" for a central force, "absolute" or "relative" for a double pendulum.
     start : str
         Of (q, p): their coordinates.
     method : str, optional

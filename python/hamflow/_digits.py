@@ -20,7 +20,7 @@ def decimals(table: Any, name: str) -> npt.NDArray[Any]:
         Where the table has no digits beyond double.
     """
     if f"digits/{name}" not in table:
-        raise Error("digits: found True of samples that are doubles; allowed in arithmetic beyond double")
+        raise Error("digits: found True, but the samples are doubles; allowed in arithmetic with more digits than double")
     texts = np.array(table[f"digits/{name}"], dtype=object).reshape(table[name].shape)
     found = np.empty(texts.shape, dtype=object)
     for place in np.ndindex(texts.shape):

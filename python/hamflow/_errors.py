@@ -9,7 +9,7 @@ AnyException = TypeVar("AnyException", bound=BaseException)
 
 
 class Error(ValueError):
-    """A request that is refused. The message names what is wrong and what is allowed."""
+    """A request was refused. The message names the error and the allowed values."""
 
 
 class Rejection(Error):
@@ -30,7 +30,7 @@ class Rejection(Error):
 
 
 class StepFailed(Error):
-    """A step could not be taken. The simulation stands at the last good one.
+    """A step failed. The simulation is at the last good step.
 
     Attributes
     ----------
@@ -61,11 +61,11 @@ class FileError(Error, OSError):
 
 
 def shown(found: Any) -> str:
-    """The repr of a value for a message, shortened where it is long or deeply nested."""
+    """The repr of a value for a message, shortened if it is long or deeply nested."""
     return reprlib.repr(found)
 
 
 def stopped(error: AnyException, partial: Any) -> AnyException:
-    """The error that ended a computation early, with what there is as its attribute `partial`."""
+    """The error that ended a computation early, with the results so far as its attribute `partial`."""
     error.partial = partial  # type: ignore[attr-defined]
     return error

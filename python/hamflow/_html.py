@@ -1,4 +1,4 @@
-"""What notebooks show: tables, and formulas that they typeset."""
+"""HTML for notebooks: tables and typeset formulas."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Figures of hamflow on matplotlib axes. C++ says what a figure shows; this file draws it."""
+"""Figures of hamflow on matplotlib axes. C++ computes the contents of a figure; this file draws it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SYMBOL = re.compile(r"\{/:Italic ([^{}]*)\}((?:[_^](?:\{[^{}]*\}|[^\\]))*)|(\w+
 
 
 def label(enhanced: str) -> str:
-    """The text of a label, whose indices and italics gnuplot writes in its own way, for matplotlib."""
+    """Translates a label from gnuplot's notation for indices and italics to matplotlib's."""
     def typeset(found: re.Match[str]) -> str:
         letter, indices = (found[1], found[2]) if found[1] is not None else (rf"\mathrm{{{found[3]}}}", found[4])
         return f"${letter}{indices}$".replace("−", "-")
@@ -40,7 +40,7 @@ def draw(page: Mapping[str, Any], ax: Any = None) -> Any:
 
     Returns
     -------
-    The axes; an array of them where the page has several panels and `ax` is not a single one.
+    The axes; an array of them if the page has several panels and `ax` is not a single one.
     """
     panels = page["panels"]
     if ax is None:
@@ -60,7 +60,7 @@ def draw(page: Mapping[str, Any], ax: Any = None) -> Any:
 
 
 def require_axes(ax: Any) -> None:
-    """Raises TypeError where these are no axes of matplotlib."""
+    """Raises TypeError if these are not axes of matplotlib."""
     if not hasattr(ax, "set_xlabel"):
         raise TypeError(f"ax: found {type(ax).__name__}; allowed axes of matplotlib")
 
@@ -164,7 +164,7 @@ def _fields(panel: Mapping[str, Any], x: Any, y: Any, value: Any, ax: Any) -> No
 
 
 def _legend(page: Mapping[str, Any], axes: Any) -> None:
-    """The legend that all panels share: behind the last of them where there is room, else in the first."""
+    """The legend that all panels share: after the last panel if there is room, else in the first."""
     from matplotlib.lines import Line2D
 
     if not page["legend"]:

@@ -96,7 +96,7 @@ class Problem:
 
     @property
     def name(self) -> str:
-        """The name in the catalogue; "formula" of a typed Hamiltonian."""
+        """The name in the catalogue; "formula" for a typed Hamiltonian."""
         return str(self._core.name)
 
     @property
@@ -106,7 +106,7 @@ class Problem:
 
     @property
     def coordinates(self) -> list[str]:
-        """Names of q; empty where the size is that of the start."""
+        """Names of q; empty if the start determines the size."""
         return list(self._core.coordinates)
 
     @property

@@ -1,4 +1,4 @@
-"""Whole runs, as the command carries them out."""
+"""Complete runs, as with the command `hamflow run`."""
 
 from __future__ import annotations
 
@@ -62,12 +62,12 @@ class States:
 
 
 class Run:
-    """What a run came to.
+    """The results of a run.
 
     Attributes
     ----------
     status : str
-        "done", "failed", "interrupted", or "running" of an opened run without a summary.
+        "done", "failed", "interrupted", or "running" for an opened run without a summary.
     t, q, p, energy : arrays of shape (n,), (n, d), (n, d), (n,)
         The samples; read-only views of float64. With digits=True, which run() and open() take, arrays of
         decimal.Decimal (dtype object) with all digits of an arithmetic beyond double.
@@ -75,9 +75,9 @@ class Run:
         That of `hamflow run --json`.
     scenario : Scenario
     folder : Path or None
-        Where the run is kept.
+        The folder of the run.
     notes : list of str
-        What is worth knowing of how the run began: keys that are not used, where it went on.
+        Notes about the start of the run: keys that are not used, the step from which it was resumed.
     """
 
     def __init__(self, scenario: Scenario, tables: Any, summary: str, folder: Path | None, digits: bool = False,
@@ -120,7 +120,7 @@ class Run:
         Raises
         ------
         Error
-            In double, where the columns have all digits, and of other columns.
+            In double, where the columns have all digits, and for other columns.
         """
         if name not in ("t", "q", "p", "energy"):
             raise Error(f"name: found {shown(name)}; allowed t, q, p, energy")
@@ -128,7 +128,7 @@ class Run:
 
     @property
     def certificate(self) -> Any:
-        """The certificate of the summary: drift, growth_exponent, energy_level, reason, ...; None where there is none."""
+        """The certificate of the summary: drift, growth_exponent, energy_level, reason, ...; None if there is none."""
         return _as_attributes(self.summary.get("certificate"))
 
     @property
@@ -143,7 +143,7 @@ class Run:
 
     @property
     def bounces(self) -> States | Any:
-        """The bounces off hard walls that were recorded; None where there are none."""
+        """The recorded bounces off hard walls; None if there are none."""
         return States(self._tables.bounces) if self._tables.bounces is not None else None
 
     @property
@@ -190,12 +190,12 @@ class Run:
 
         Returns
         -------
-        The axes; an array of them where the figure has several panels.
+        The axes; an array of them if the figure has several panels.
 
         Raises
         ------
         Error
-            Where the run has no such figure.
+            If the run has no such figure.
         """
         from ._page import draw
 
@@ -203,7 +203,7 @@ class Run:
 
     def figure(self, kind: str, file: str | os.PathLike[str], *, x: str = "", y: Sequence[str] = (),
                at: Sequence[float] = ()) -> None:
-        """Draws the same as the command does, by gnuplot: .svg, .pdf or .png."""
+        """Draws the same figure with gnuplot into a file .svg, .pdf or .png, like `hamflow plot`."""
         more = (x, [y] if isinstance(y, str) else list(y), [float(time) for time in at])
         if self.folder is not None:
             _core.draw(self.folder, kind, os.fspath(file), *more)
@@ -212,7 +212,7 @@ class Run:
             _core.draw(self.save(Path(place) / "a.run"), kind, os.fspath(file), *more)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Writes the folder that `hamflow run` leaves: the run is copied, or carried out once more, with the same bits."""
+        """Writes a folder like `hamflow run`: copies the run, or repeats it with the same bits."""
         to = Path(folder)
         if os.path.lexists(to):
             raise FileError(f"{to} exists; choose another folder")
@@ -248,7 +248,7 @@ class Run:
         return _html.facts(rows) + self._first_figure()
 
     def _first_figure(self) -> str:
-        """The first figure of the scenario, or the usual one, as SVG; empty where there is nothing to draw."""
+        """The first figure of the scenario, or the default one, as SVG; empty if nothing can be drawn."""
         from ._page import svg
 
         try:
@@ -319,20 +319,20 @@ def progress_of_both(asked: bool | Progress | None) -> Progress | None:
 
 def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing: str = "error",
         progress: bool | Progress | None = None, certificate: bool = True, digits: bool = False) -> Run:
-    """Carries out a scenario.
+    """Runs a scenario.
 
     Parameters
     ----------
     scenario : Scenario, dict of tables, or name of a TOML file
     out : path, optional
-        The folder that the run leaves, as that of the command. Default: nothing is written.
+        Output directory, as for the command. Default: nothing is written.
     existing : "error", "replace" or "resume"
-        What to do with a folder that exists. "resume" goes on from its last checkpoint, bit for bit, and begins where
+        What to do with an existing folder. "resume" continues from its last checkpoint, bit for bit, and begins where
         there is none.
     progress : bool or callable(done, total), optional
         Default: on a terminal, for what takes longer than 2 s.
     certificate : bool
-        Whether the run ends with a certificate, which costs at most a tenth more or a second.
+        Whether to make a certificate, which takes at most a tenth of the run or a second.
     digits : bool
         Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double.
 
@@ -399,7 +399,7 @@ def open(run: str | os.PathLike[str], /, *, digits: bool = False) -> Run:  # noq
     ------
     FileError
     Error
-        With digits=True, where the run is in double.
+        With digits=True, if the run is in double.
     """
     path = Path(run)
     found = _core.open_run(path)
@@ -409,7 +409,7 @@ def open(run: str | os.PathLike[str], /, *, digits: bool = False) -> Run:  # noq
 
 
 class Reversal:
-    """There and back: bit_exact, distance, and the summary of `hamflow reverse --json`."""
+    """The result of a reversal: bit_exact, distance, and the summary of `hamflow reverse --json`."""
 
     def __init__(self, text: str) -> None:
         self.summary: dict[str, Any] = json.loads(text)

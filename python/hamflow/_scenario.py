@@ -11,12 +11,12 @@ from ._problem import Problem
 
 
 class Scenario:
-    """What `hamflow run` carries out: problem, method, run and output.
+    """The input of a run: problem, method, run and output.
 
     Parameters
     ----------
     tree : mapping, optional
-        All tables, {"problem": {...}, "method": {...}, "run": {...}}, of which each may be what the keyword takes.
+        All tables, {"problem": {...}, "method": {...}, "run": {...}}; each may have the type of the keyword below.
     problem : Problem or mapping, optional
         A problem with its start, as from `Problem.at`.
     method : str or mapping, optional
@@ -55,7 +55,7 @@ class Scenario:
 
     @classmethod
     def from_text(cls, text: str, name: str = "scenario") -> Scenario:
-        """The scenario of a TOML text; `name` stands in messages."""
+        """The scenario of a TOML text; messages use `name` for the file."""
         self = cls.__new__(cls)
         self._read(text, name)
         return self
@@ -113,7 +113,7 @@ def tables_of(tree: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def scenario_of(given: Any) -> Scenario:
-    """A scenario from whatever stands for one: itself, a dict, the name of a file."""
+    """A scenario from a Scenario, a dict, or the name of a file."""
     if isinstance(given, Scenario):
         return given
     text, name = text_of(given)
@@ -121,7 +121,7 @@ def scenario_of(given: Any) -> Scenario:
 
 
 def text_of(given: Any) -> tuple[str, str]:
-    """The TOML text of whatever stands for a scenario, unchecked, and the name that stands in messages."""
+    """The TOML text of a Scenario, a dict or a file, unchecked, and its name for messages."""
     if isinstance(given, Scenario):
         return str(given), given._name
     if isinstance(given, Mapping):

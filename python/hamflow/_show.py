@@ -11,7 +11,7 @@ from ._scenario import Scenario
 
 
 class Shown:
-    """What is known under a name: `text`, as `hamflow show` prints it, and `formulas`, H as LaTeX, of a problem."""
+    """A description: `text`, as `hamflow show` prints it, and for a problem `formulas`, H as LaTeX."""
 
     def __init__(self, name: str, text: str, formulas: list[str]) -> None:
         self.name, self.text, self.formulas = name, text, formulas

@@ -83,16 +83,16 @@ class Simulation:
     method : str
         Such as "stv4" or "cg(1,5)"; see `hamflow.methods`.
     q, p : sequence of d numbers, optional
-        Where it starts; texts are read in the arithmetic of the run. Default: the start of the problem.
+        The start; texts are read in the arithmetic of the run. Default: the start of the problem.
     dt : float or str
-        Step size; negative goes back in time.
+        Step size; negative: backward in time.
     arithmetic : str
         "double", "compensated", "double-double", "quad", "mp(50)" or "lattice".
 
     Raises
     ------
     Rejection
-        With everything that is wrong.
+        With all errors of the request.
 
     Examples
     --------
@@ -143,7 +143,7 @@ class Simulation:
         Raises
         ------
         StepFailed
-            The simulation then stands at the last good step.
+            The simulation is then at the last good step.
         KeyboardInterrupt
             Likewise, at the step that was reached.
         """
@@ -155,27 +155,28 @@ class Simulation:
         Raises
         ------
         Error
-            Where t is none, naming the nearest; `sample(at=...)` takes any time.
+            If t is not a multiple; the message names the nearest ones. `sample(at=...)` takes any time.
         """
         steps = (t - self.t) / self.dt
         if not np.isfinite(steps):
             raise Error(f"t: found {shown(t)}; allowed finite times")
         whole = round(steps)
         if not abs(steps - whole) <= 1e-9 * max(1.0, abs(steps)):
-            raise Error(f"t: found {t!r}, which is no whole number of steps from t = {self.t!r}; the nearest are "
+            raise Error(f"t: found {t!r}, which is not a whole number of steps from t = {self.t!r}; the nearest times are "
                         f"{self.t + np.floor(steps) * self.dt!r} and {self.t + np.ceil(steps) * self.dt!r}; sample(at=...) takes any time")
         if whole < 0:
-            raise Error(f"t: found {t!r} behind t = {self.t!r}; allowed later times; reverse() turns the motion round")
+            raise Error(f"t: found {t!r}, which is before t = {self.t!r}; allowed later times; to integrate backward, "
+                        "call reverse() first")
         self.advance(whole)
 
     def sample(self, *, steps: int | None = None, every: int = 1, at: npt.ArrayLike | None = None,
                digits: bool = False) -> Trajectory:
-        """Advances and keeps states.
+        """Advances and returns the states on the way.
 
         Parameters
         ----------
         steps : int
-            Number of steps to take; the present state and every `every`-th step are kept.
+            Number of steps to take; the present state and every `every`-th step are returned.
         every : int
         at : array_like of times
             In place of steps: the states at these times, by partial steps of the method; the bits of the trajectory
@@ -232,7 +233,7 @@ class Simulation:
         """t, q, p, energy with all their digits, as decimal.Decimal, in arithmetic beyond double."""
         all_digits = self._core.digits
         if not all_digits["q"]:
-            raise Error("digits are kept in arithmetic beyond double; in double t, q, p, energy have all of them")
+            raise Error("digits exist only in arithmetic with more digits than double; use t, q, p, energy")
         return SimpleNamespace(t=Decimal(all_digits["t"]), q=[Decimal(x) for x in all_digits["q"]],
                                p=[Decimal(x) for x in all_digits["p"]], energy=Decimal(all_digits["energy"]))
 
@@ -255,11 +256,11 @@ class Simulation:
         return dict(self._core.evaluations)
 
     def reverse(self) -> None:
-        """Reverses the momenta: the motion runs back."""
+        """Negates the momenta, so that the motion runs backward."""
         self._core.negate_momenta()
 
     def copy(self) -> Simulation:
-        """A simulation that goes on by itself."""
+        """An independent copy of the simulation."""
         other = Simulation.__new__(Simulation)
         other._begin(self._core.copy())
         return other
@@ -270,23 +271,23 @@ class Simulation:
         return self.copy()
 
     def save(self) -> bytes:
-        """Everything that decides the bits of the steps to come."""
+        """The complete state as bytes, from which load() continues with the same bits."""
         return bytes(self._core.save())
 
     def load(self, saved: bytes) -> None:
-        """Goes on from what save() gave, bit for bit.
+        """Continues from the bytes of save(), bit for bit.
 
         Raises
         ------
         Error
-            Where the bytes are of another kind of simulation, or damaged; then nothing has changed.
+            If the bytes belong to another kind of simulation or are damaged; then nothing has changed.
         """
         self._core.load(saved)
 
     def observe(self, *, every: int = 1) -> Callable[[Callable[[Simulation], Any]], Callable[[Simulation], Any]]:
-        """Decorates a function of the simulation that is called every `every` steps.
+        """Decorator: calls the function with the simulation every `every` steps.
 
-        Where it returns "stop", advance(), integrate() and sample() end at that step; `step` tells where.
+        If it returns "stop", advance(), integrate() and sample() end at that step; see `step`.
         """
         def decorate(function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
             # C++ keeps no reference to the function or the simulation, as a cycle through C++ is never freed.

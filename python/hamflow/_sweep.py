@@ -34,7 +34,7 @@ class Sweep:
 
     @property
     def status(self) -> list[str]:
-        """What each member came to: "done", "failed", ..."""
+        """The status of each member: "done", "failed", ..."""
         return list(self._members["member/status"])
 
     @property
@@ -161,7 +161,7 @@ def _varied(key: str, values: Any) -> str:
 def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, threads: int | None = None,  # noqa: A002
           out: str | os.PathLike[str] | None = None, existing: str = "error",
           progress: bool | Progress | None = None, client: Any = None) -> Sweep:
-    """Carries out a scenario for many values of some of its keys, in lanes and on all cores.
+    """Runs a scenario for many values of some of its keys, in SIMD lanes and on all cores.
 
     Parameters
     ----------
@@ -170,13 +170,13 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
         {"problem.initial.q[1]": np.linspace(-.4, .6, 100)}; a text as on the command line, "a:b:n" or a formula of
         other keys. Several keys form a Cartesian product; the last one varies fastest.
     zip : bool
-        Instead of the product the n-th value of each key together.
+        Combine the n-th values of all keys instead of forming the product.
     threads : int, optional
         Default: all cores. The bits do not depend on it.
     out : path, optional
-        The folder that the sweep leaves.
+        Output directory. Default: nothing is written.
     existing : "error", "replace" or "resume"
-        What to do with a folder that exists. "resume" goes on with the members that are not finished.
+        What to do with an existing folder. "resume" runs the members that are not finished.
     progress : bool or callable(done, total), optional
         Of steps of all members. Default: on a terminal, for what takes longer than 2 s.
     client : dask.distributed.Client, optional
@@ -187,8 +187,8 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     ------
     Rejection, FileError
     KeyboardInterrupt, Error
-        And what `progress` raises. The attribute `partial` is the sweep so far: after Ctrl-C, where None says that members
-        were still being read, and where workers of the cluster failed.
+        Also exceptions of `progress`. The attribute `partial` is the sweep so far, after Ctrl-C (None if members were still
+        being read) and if workers of the cluster failed.
 
     Examples
     --------
@@ -219,7 +219,7 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
 
 
 def _shard(text: str, varied: list[str], zip: bool, index: int, count: int) -> bytes:  # noqa: A002
-    """What a worker does: the members index, index + count, ... of a sweep."""
+    """The work of one worker: the members index, index + count, ... of a sweep."""
     return bytes(_core.sweep_shard(text, varied, zip, index, count))
 
 
@@ -275,7 +275,7 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
     Raises
     ------
     Error
-        Where a member fails, naming the first.
+        If a member fails; the message names the first one.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from typing import Any, Callable, NoReturn
 
 import numpy as np
 
-_REFUSED = "a Hamiltonian is traced once with symbols, and {} has no value there; {}"
+_REFUSED = "a Hamiltonian is traced once with symbols, for which {} has no value; {}"
 
 
 class Symbol:

@@ -1,4 +1,4 @@
-"""What methods claim, measured."""
+"""Measurements of the claims of methods."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._errors import stopped
 
 
 class Verification:
-    """Claims of methods beside what was measured.
+    """Claims of methods, with the measurements.
 
     Attributes
     ----------

@@ -150,7 +150,9 @@ void bind_run(py::module_& m) {
     const ConvertedScenario converted = converted_scenario(scenario, to, sets);
     std::vector<std::string> notes = converted.notes;
     const std::string left_out = left_out_of_converted(scenario, to);
-    if (!left_out.empty()) notes.push_back(left_out + " of the other coordinates: not in what was converted");
+    if (!left_out.empty()) {
+      notes.push_back("left out of the converted scenario: " + left_out + " (written in the old coordinates)");
+    }
     return std::make_pair(converted.text, notes);
   });
   m.def("convert_states", [](const std::string& from, const std::string& to, const std::vector<std::vector<double>>& q,

@@ -34,7 +34,7 @@ class Sampler final : public Observer {
     const std::size_t longest = longest_digits(scenario.request.arithmetic);
     if (digits && longest == 0) {
       throw Error("digits: found True in " + scenario.request.arithmetic +
-                  " arithmetic, whose t, q, p, energy have all digits as doubles; allowed beyond double");
+                  " arithmetic, whose numbers are doubles; allowed in arithmetic with more digits than double");
     }
     const std::size_t n = scenario.start_q.size();
     table_.add({.name = "q", .width = n, .scalar = false, .meaning = "coordinates"});
@@ -55,7 +55,7 @@ class Sampler final : public Observer {
       for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>(samples) + 1);
     } catch (const std::exception&) {  // no memory, or no vector has this length
       throw Error("steps, every: found " + std::to_string(samples) +
-                  " samples, for which there is no memory; allowed fewer steps, or a larger every");
+                  " samples, which do not fit into memory; allowed fewer steps, or a larger every");
     }
   }
   std::int64_t next_due(std::int64_t step) const override {
@@ -146,8 +146,8 @@ class PySimulation {
       is_first_ = user_.compare_exchange_strong(nobody, own);
       if (is_first_ || (only_looks && nobody == own)) return;
       throw Error(nobody == own
-                      ? "the simulation is being advanced; a function that observes it can look, and copy() it"
-                      : "the simulation is in use by another thread; use a copy() in each thread");
+                      ? "the simulation is being advanced; an observing function may only read it and call copy()"
+                      : "the simulation is used by another thread; use a copy() in each thread");
     }
     ~InUse() {
       if (is_first_) user_ = std::thread::id();
@@ -204,7 +204,7 @@ class PySimulation {
   }
 
   std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every, bool digits) {
-    if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
+    if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 or more");
     require_steps(steps);
     const std::int64_t first = simulation_->step();
     Sampler sampler(*scenario_, first, every, first + steps, digits);
@@ -222,7 +222,7 @@ class PySimulation {
       Frame frame = look();
       const double behind = (t - frame.time) / dt;
       if (!(behind >= -1e-9)) {
-        throw Error("at: found t = " + text + " behind the present time " + shortest(frame.time) +
+        throw Error("at: found t = " + text + ", which is before the present time " + shortest(frame.time) +
                     "; allowed times in the order of the motion");
       }
       const double whole = std::floor(behind * (1 + 4e-16) + 1e-12);
@@ -265,21 +265,22 @@ class PySimulation {
     const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
     std::uint64_t sum = 0;
     if (bytes.size() < sizeof sum)
-      throw Error("saved: found " + std::to_string(bytes.size()) + " bytes; allowed those of save()");
+      throw Error("saved: found " + std::to_string(bytes.size()) + " bytes; allowed the bytes returned by save()");
     const auto content = bytes.first(bytes.size() - sizeof sum);
     std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-    if (sum != fnv1a(content)) throw Error("saved: the bytes are damaged; allowed those of save()");
+    if (sum != fnv1a(content)) throw Error("saved: the bytes are damaged; allowed the bytes returned by save()");
     simulation_->restore(content);
   }
   void watch(std::int64_t every, py::object told) {
-    if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
+    if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 or more");
     watchers_.push_back(std::make_shared<Watcher>(every, std::move(told)));
   }
 
  private:
   static void require_steps(std::int64_t steps) {
     if (steps >= 0 && steps <= std::int64_t{1} << 53) return;
-    throw Error("steps: found " + std::to_string(steps) + "; allowed from 0 to 2^53; reverse() turns the motion round");
+    throw Error("steps: found " + std::to_string(steps) +
+                "; allowed from 0 to 2^53; to integrate backward, call reverse() first");
   }
   /// Whether 100 steps take no more than some milliseconds.
   bool has_short_steps() const {

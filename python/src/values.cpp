@@ -39,8 +39,8 @@ Value::Table table_of(const py::dict& dict, const std::string& path, int depth) 
 
 Value value_of(const py::handle& object, const std::string& key, int depth) {
   if (depth > deepest) {
-    throw Error(key.substr(0, key.find_first_of(".[")) + ": found lists or dicts within one another, more than " +
-                std::to_string(deepest) + " deep; allowed at most that");
+    throw Error(key.substr(0, key.find_first_of(".[")) + ": found lists or dicts nested too deeply; allowed at most " +
+                std::to_string(deepest) + " levels");
   }
   if (py::isinstance<py::bool_>(object)) return object.cast<bool>();
   if (py::isinstance<py::int_>(object)) {

@@ -206,7 +206,7 @@ def test_digits():
     sim.advance(10)
     assert isinstance(sim.digits.q[0], Decimal) and len(str(sim.digits.q[0])) > 38
     assert float(sim.digits.q[0]) == sim.q[0]
-    with pytest.raises(hf.Error, match="beyond double"):
+    with pytest.raises(hf.Error, match="more digits than double"):
         simulation().digits
 
 

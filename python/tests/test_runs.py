@@ -36,7 +36,7 @@ def test_digits_are_those_of_the_command(tmp_path, arithmetic):
 def test_digits_of_doubles_are_refused():
     for ask in (lambda: hf.run(pendulum(), digits=True),
                 lambda: hf.Simulation("pendulum", q=[1], p=[0], dt=0.1).sample(steps=3, digits=True)):
-        with pytest.raises(hf.Error, match="double-double|beyond double"):
+        with pytest.raises(hf.Error, match="double-double|more digits than double"):
             ask()
 
 

@@ -41,7 +41,7 @@ std::string obstacle(const FigureData& data, const figures::FigureKind& kind) {
   const std::string wrong = inconsistency(data);
   if (!wrong.empty()) return wrong;
   if (data.q.empty() && kind.needs_states) {
-    return "the columns of " + std::to_string(data.particles.count) + " particles are not read one by one";
+    return "columns of single particles are not read for " + std::to_string(data.particles.count) + " particles";
   }
   return kind.obstacle(data);
 }
@@ -61,7 +61,7 @@ std::string why_not_alone(const FigureData& data, const FigureOptions& options, 
   std::vector<std::string> others = drawable_figures(facts);
   std::erase_if(others, [&](const std::string& name) { return !obstacle(data, *figures::find_kind(name)).empty(); });
   return "found \"" + kind + "\"" + why +
-         (others.empty() ? "; no other figure can be drawn of these samples either" : "; allowed " + joined(others));
+         (others.empty() ? "; no other figure can be drawn from these samples" : "; allowed " + joined(others));
 }
 
 /// Of many columns the first and the last, and how many there are.
@@ -130,7 +130,7 @@ std::vector<std::string> notes_on_times(const Figure& figure) {
       const figures::OtherSample other = figures::other_sample_at(run, t);
       if (other.told.empty()) continue;
       notes.push_back((figure.runs.size() > 1 ? run.label + ": " : "") + "no sample is at the time " + shortest(t) +
-                      ", but at those of " + other.told + ", which is drawn");
+                      ", only at those of " + other.told + ", which is drawn");
     }
   }
   return notes;

@@ -45,10 +45,10 @@ std::string same_coordinates(const Figure& figure) {
 
 std::string without_particles(const FigureFacts& facts) {
   if (facts.particles || facts.degrees_of_freedom == 0) return {};
-  return for_degrees(facts) + ", which is no gas and not several bodies in space";
+  return for_degrees(facts) + ", which is neither a gas nor several bodies in space";
 }
 
-std::string one_run(const Figure&) { return "particles are those of one run; allowed a run alone"; }
+std::string one_run(const Figure&) { return "this kind draws the particles of one run; allowed a single run"; }
 
 std::vector<std::string> no_columns(const FigureData&) { return {}; }
 

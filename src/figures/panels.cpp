@@ -127,7 +127,7 @@ void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y) {
   }
 }
 
-std::string joined_note(std::size_t samples) { return std::to_string(samples) + " samples are joined"; }
+std::string joined_note(std::size_t samples) { return "lines join " + std::to_string(samples) + " samples"; }
 
 bool is_sparse(const std::vector<double>& y) {
   constexpr std::size_t few = 8;

@@ -123,20 +123,20 @@ StoredData::StoredData(Hdf5Handle object, Hdf5Handle type, Hdf5Handle space, std
   constexpr hsize_t most_values = hsize_t{1} << 42;  // beyond every disk, and products with a size in bytes stay whole
   hsize_t values = 1;
   for (const hsize_t size : shape_) {
-    if (size > most_values / values) throw FileError("HDF5: " + name_ + " claims a size that cannot be");
+    if (size > most_values / values) throw FileError("HDF5: " + name_ + " states an impossible size");
     values *= std::max<hsize_t>(size, 1);
   }
 }
 
 StoredData StoredData::dataset(hid_t file, const std::string& path) {
   const std::string name = "dataset " + path;
-  if (!has_object(file, path)) throw FileError("HDF5: there is no " + name);
+  if (!has_object(file, path)) throw FileError("HDF5: " + name + " does not exist");
   Hdf5Handle object(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, "open " + name);
   Hdf5Handle type(H5Dget_type(object), H5Tclose, "read the type of " + name);
   Hdf5Handle space(H5Dget_space(object), H5Sclose, "open the space of " + name);
   const Hdf5Handle creation(H5Dget_create_plist(object), H5Pclose, "read how " + name + " is stored");
   if (H5Pget_layout(creation) == H5D_VIRTUAL || H5Pget_external_count(creation) != 0) {
-    throw FileError("HDF5: " + name + " has its values in other files");
+    throw FileError("HDF5: the values of " + name + " are in other files");
   }
   return {std::move(object), std::move(type), std::move(space), name, true};
 }
@@ -166,7 +166,7 @@ void StoredData::check_size(std::size_t values, std::size_t bytes_each) const {
   const std::uintmax_t bytes = overflows ? 0 : std::uintmax_t{values} * bytes_each;
   if (!overflows && bytes <= never_too_much) return;
   if (overflows || !is_dataset_ || bytes - never_too_much > most_bytes_of(object_)) {
-    throw FileError("HDF5: " + name_ + " claims a size that cannot be");
+    throw FileError("HDF5: " + name_ + " states an impossible size");
   }
 }
 
@@ -225,7 +225,7 @@ std::vector<std::string> StoredData::texts_of(std::size_t first, std::size_t cou
   require(Kind::texts);
   const std::size_t length = H5Tget_size(type_);
   if (H5Tis_variable_str(type_) != 0 || length == 0) {
-    throw FileError("HDF5: " + name_ + " holds no texts of one length");
+    throw FileError("HDF5: " + name_ + " does not contain texts of one length");
   }
   const std::vector<char> bytes = read_rows(type_, first, count);
   std::vector<std::string> texts;
@@ -244,7 +244,7 @@ std::vector<std::string> StoredData::texts_of_row(std::size_t row) const { retur
 
 std::string StoredData::text() const {
   require(Kind::texts);
-  if (rows() != 1 || width() != 1) throw FileError("HDF5: " + name_ + " holds several texts, not one");
+  if (rows() != 1 || width() != 1) throw FileError("HDF5: " + name_ + " contains several texts, not one");
   const std::vector<char> bytes = read_rows(type_, 0, 1);
   if (H5Tis_variable_str(type_) == 0) return {bytes.data(), bytes.size()};
   char* text = nullptr;

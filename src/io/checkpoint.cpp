@@ -44,10 +44,13 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     std::uint64_t found_magic = 0;
     std::uint64_t found_format = 0;
     ar(found_magic, found_format);
-    if (found_magic != magic) throw damaged("is none of hamflow on a machine like this, or damaged");
+    if (found_magic != magic) {
+      throw damaged("was not written by hamflow, or on a machine with another byte order, or is damaged");
+    }
     if (found_sum != fnv1a(content)) throw damaged("is damaged: its checksum is wrong");
     if (found_format != format)
-      throw damaged("has format " + std::to_string(found_format) + ", this hamflow knows " + std::to_string(format));
+      throw damaged("has format " + std::to_string(found_format) + "; this version of hamflow reads format " +
+                    std::to_string(format));
     ar(checkpoint);
     ar.finish();
   } catch (const Error& error) {

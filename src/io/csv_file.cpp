@@ -30,7 +30,7 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const
 CsvFile::CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash)
     : path_(file), out_(nullptr, std::fclose), bytes_(bytes), hash_(hash) {
   if (const std::string wrong = refused_csv(file, bytes, hash); !wrong.empty()) {
-    throw FileError("cannot go on with " + file.string() + ": " + wrong);
+    throw FileError("cannot resume with " + file.string() + ": " + wrong);
   }
   std::error_code error;
   std::filesystem::resize_file(file, bytes, error);
@@ -73,7 +73,7 @@ void CsvFile::fail() const { throw FileError("cannot write " + path_.string() + 
 
 std::string refused_csv(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) return "it is gone or cannot be read";
+  if (!in) return "it does not exist or cannot be read";
   std::uint64_t found = fnv1a_of_nothing;
   std::uint64_t left = bytes;
   std::vector<char> part(std::size_t{1} << 16);
@@ -81,13 +81,12 @@ std::string refused_csv(const std::filesystem::path& file, std::uint64_t bytes, 
     in.read(part.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(left, part.size())));
     const auto count = static_cast<std::size_t>(in.gcount());
     if (count == 0) {
-      return "it has " + std::to_string(bytes - left) + " bytes, not the " + std::to_string(bytes) +
-             " that the checkpoint counts";
+      return "it has " + std::to_string(bytes - left) + " bytes, but the checkpoint needs " + std::to_string(bytes);
     }
     found = fnv1a(std::as_bytes(std::span(part.data(), count)), found);
     left -= count;
   }
-  return found == hash ? "" : "it holds other samples than the run wrote, or was changed";
+  return found == hash ? "" : "its samples are not those of the run, or were changed";
 }
 
 }  // namespace hamflow

@@ -131,8 +131,8 @@ class LogTable {
   std::size_t place_of(const std::string& wanted, const char* key) const {
     const auto named = std::count(names_.begin(), names_.end(), wanted);
     if (named > 1) {
-      throw Rejection(key, "found '" + wanted + "', the name of " + std::to_string(named) +
-                               " columns; allowed its number, from 1 to " + std::to_string(width_));
+      throw Rejection(key, "found '" + wanted + "', which is the name of " + std::to_string(named) +
+                               " columns; allowed a number of a column, from 1 to " + std::to_string(width_));
     }
     if (named == 1) {
       return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), wanted) - names_.begin());
@@ -146,7 +146,7 @@ class LogTable {
     const std::string numbers = "numbers from 1 to " + std::to_string(width_);
     if (names_.empty()) {
       throw Rejection(
-          key, "found '" + wanted + "'; allowed " + numbers + ": " + file_.string() + " has no names of columns");
+          key, "found '" + wanted + "'; allowed " + numbers + ", because " + file_.string() + " has no column names");
     }
     throw Rejection(
         key, "found '" + wanted + "'; allowed " + joined(names_) + ", or " + numbers + suggestion(wanted, names_));
@@ -167,7 +167,7 @@ std::ifstream opened(const std::filesystem::path& file) {
   std::error_code none;
   if (std::filesystem::is_directory(file, none)) throw FileError(file.string() + " is a folder; allowed a file");
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError("cannot read " + file.string() + ": is there such a file?");
+  if (!in) throw FileError("cannot read " + file.string() + "; does the file exist?");
   return in;
 }
 
@@ -227,7 +227,7 @@ LogColumns read_log_of_lammps(const std::filesystem::path& file, const std::stri
     }
   });
   if (in_table) end();  // of a run that goes on, or was killed
-  if (!last) refuse_file(file, "found no thermo output; allowed a table below a line that begins with Step");
+  if (!last) refuse_file(file, "no thermo output; allowed a table below a line that starts with Step");
   LogColumns columns = last->take();
   columns.tables = tables;
   return columns;
@@ -269,8 +269,8 @@ LogColumns read_text_columns(const std::filesystem::path& file, const std::strin
     table.begin(has_names ? comment.cells : std::vector<LogCell>{}, cells.size(), number);
     table.add({cells, number});
   });
-  if (!begun) refuse_file(file, "found an empty file; allowed columns of numbers");
-  if (table.rows() == 0) refuse_file(file, "found names of columns and no numbers; allowed a row for each sample");
+  if (!begun) refuse_file(file, "the file is empty; allowed columns of numbers");
+  if (table.rows() == 0) refuse_file(file, "found column names but no numbers; allowed a row for each sample");
   return table.take();
 }
 
@@ -313,7 +313,7 @@ std::vector<double> stored_log_column(hid_t file, const std::string& wanted, con
   const auto refuse_path = [&](const std::string& what) {
     list_datasets(file, "", datasets);
     throw Rejection(key, "found '" + wanted + "'" + what + "; allowed " +
-                             (datasets.empty() ? "a dataset, of which the file has none" : joined(datasets)) +
+                             (datasets.empty() ? "a dataset, but the file has none" : joined(datasets)) +
                              suggestion(path, datasets));
   };
   if (path.empty() || !has_object(file, path)) refuse_path("");
@@ -323,7 +323,7 @@ std::vector<double> stored_log_column(hid_t file, const std::string& wanted, con
   }
   const StoredData data = StoredData::dataset(file, path);
   if (data.kind() != StoredData::Kind::numbers)
-    throw Rejection(key, "found '" + wanted + "', no numbers; allowed a dataset of numbers");
+    throw Rejection(key, "found '" + wanted + "', which does not contain numbers; allowed a dataset of numbers");
   const std::size_t width = data.width();
   if (width == 0) throw Rejection(key, "found '" + wanted + "', which has no columns; allowed a dataset of numbers");
   if (!column && width != 1) {
@@ -346,7 +346,7 @@ LogColumns read_hdf5_columns(const std::filesystem::path& file, const std::strin
   if (columns.time.size() != columns.energy.size()) {
     throw Rejection(energy_key, "found " + std::to_string(columns.energy.size()) +
                                     (columns.energy.size() == 1 ? " energy" : " energies") + "; allowed " +
-                                    std::to_string(columns.time.size()) + ", as many as times");
+                                    std::to_string(columns.time.size()) + ", the number of times");
   }
   return columns;
 }

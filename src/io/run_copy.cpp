@@ -196,7 +196,7 @@ void write_states(hid_t file, const Table& states) {
 LeftOut copy(const std::filesystem::path& source, const std::filesystem::path& target, const ConvertedStates& states) {
   const Hdf5Handle from = open_to_read(source);
   if (has_object(from, "particles/all")) {
-    throw FileError(source.string() + " holds particles, which have no other coordinates");
+    throw FileError(source.string() + " contains particles, which have no other coordinates");
   }
   WholeFile whole(target);
   Hdf5Handle to = create_hdf5(whole.part());
@@ -223,9 +223,9 @@ LeftOut copy_run_file(const std::filesystem::path& source, const std::filesystem
   try {
     return copy(source, target, states);
   } catch (const std::bad_alloc&) {
-    throw FileError(source.string() + " cannot be copied: it claims a size that cannot be");
+    throw FileError(source.string() + " cannot be copied: it states an impossible size");
   } catch (const std::length_error&) {
-    throw FileError(source.string() + " cannot be copied: it claims a size that cannot be");
+    throw FileError(source.string() + " cannot be copied: it states an impossible size");
   }
 }
 

@@ -246,7 +246,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     std::error_code ignored;
     std::filesystem::remove(fresh, ignored);
     if (!goes_on) throw;
-    throw FileError("cannot go on with " + file.string() + ": " + error.what());
+    throw FileError("cannot resume with " + file.string() + ": " + error.what());
   }
 }
 

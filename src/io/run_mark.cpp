@@ -21,10 +21,10 @@ std::string refused_run_file(const std::filesystem::path& file, const std::strin
   silence_hdf5();
   try {
     const Hdf5Handle in = open_to_read(file);
-    if (text_attribute(in, "run") != identity) return "it is of another run";
+    if (text_attribute(in, "run") != identity) return "it belongs to another run";
     const std::size_t found = StoredData::dataset(in, "t").rows();
     if (found >= rows) return {};
-    return fmt::format("it has {} samples, not the {} that the checkpoint counts", found, rows);
+    return fmt::format("it has {} samples, but the checkpoint needs {}", found, rows);
   } catch (const FileError& error) {
     return std::string("it cannot be read: ") + error.what();
   }

@@ -116,7 +116,7 @@ void add_other_column(hid_t file, const std::string& name, const std::string& pa
   const auto leave_out = [&](const std::string& why) {
     run.left_out.push_back("/" + path + " is left out: it " + why);
   };
-  if (!has_object(file, path)) return leave_out("is a link that leads nowhere");
+  if (!has_object(file, path)) return leave_out("is a broken link");
   {
     const Hdf5Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
     if (H5Iget_type(object) != H5I_DATASET) return leave_out("is no dataset");
@@ -127,7 +127,8 @@ void add_other_column(hid_t file, const std::string& name, const std::string& pa
     return leave_out("has no rows of numbers");
   }
   if (data.rows() < rows) {
-    return leave_out("has " + std::to_string(data.rows()) + " rows, the run " + std::to_string(rows) + " samples");
+    return leave_out("has " + std::to_string(data.rows()) + " rows, but the run has " + std::to_string(rows) +
+                     " samples");
   }
   run.tables.samples.add(numbers_column(name, data.width(), data.width() == 1, data.numbers())).cut(rows);
 }
@@ -238,7 +239,7 @@ std::vector<double> read_positions(const std::filesystem::path& path, std::size_
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
   if (const auto states = states_of_reversal(file); !states.empty()) {
-    if (sample >= states.size()) throw FileError("HDF5: a state is gone");
+    if (sample >= states.size()) throw FileError("HDF5: a state is missing");
     return state_of_reversal(file, states[sample] + "/q", 0);
   }
   return rows_of_states(file, has_particles(file) ? H5mdNames::position : "q", 0).numbers_of_row(sample);
@@ -251,17 +252,17 @@ auto naming(const std::filesystem::path& path, const Read& read) {
   if (!std::filesystem::exists(path, unknown)) {
     const bool of_sweep = std::filesystem::exists(path.parent_path() / "sweep.h5", unknown) && path.has_parent_path();
     throw FileError(
-        path.string() + " cannot be read: there is no such file" +
+        path.string() + " cannot be read: the file does not exist" +
         (of_sweep ? "; this is the folder of a sweep: " + command_name("sweep --figure") + " draws it" : ""));
   }
   try {
     return read(path);
   } catch (const FileError& error) {
-    throw FileError(path.string() + " cannot be read, damaged or no run of hamflow: " + error.what());
+    throw FileError(path.string() + " is damaged or is not a run of hamflow: " + error.what());
   } catch (const std::bad_alloc&) {
-    throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
+    throw FileError(path.string() + " cannot be read: it states an impossible size");
   } catch (const std::length_error&) {
-    throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
+    throw FileError(path.string() + " cannot be read: it states an impossible size");
   }
 }
 

@@ -4,7 +4,7 @@ namespace hamflow {
 
 namespace {
 
-constexpr const char* all_digits = "with all digits: decimal texts that read back to the last bit";
+constexpr const char* all_digits = "with all digits: decimal texts that read back exactly";
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -99,7 +99,7 @@ Table section_of(const RunDescription& run) {
 }
 
 Table bounces_of(const RunDescription& run) {
-  constexpr StateMeaning meaning{"coordinates at the bounces", "canonical momenta behind the bounces",
+  constexpr StateMeaning meaning{"coordinates at the bounces", "canonical momenta after the bounces",
                                  "times of the bounces"};
   Table table;
   table.rename("bounces");

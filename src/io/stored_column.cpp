@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they stand in memory");
+static_assert(std::endian::native == std::endian::little, "numbers are written in the byte order of memory");
 
 namespace {
 
@@ -79,8 +79,8 @@ void StoredColumn::copy_from(hid_t other, std::uint64_t rows, std::size_t at_onc
     throw FileError("HDF5: " + source.name() + " has another width");
   }
   if (found < rows) {
-    throw FileError("HDF5: dataset " + path_ + " has " + std::to_string(found) + " rows, not the " +
-                    std::to_string(rows) + " that the checkpoint counts");
+    throw FileError("HDF5: dataset " + path_ + " has " + std::to_string(found) + " rows, but the checkpoint needs " +
+                    std::to_string(rows));
   }
   while (written_ < rows) {
     const std::size_t count = std::min<std::size_t>(rows - written_, at_once);

@@ -1,4 +1,4 @@
-// How much memory a sweep takes, and how much there is: a sweep that cannot fit is refused before it begins.
+// Estimates the memory of a sweep and finds the available memory, to refuse a sweep that is too large before it starts.
 #pragma once
 
 #include <cstdint>

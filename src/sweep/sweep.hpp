@@ -1,5 +1,5 @@
-// A sweep: every member of a family of scenarios, on all cores, one in each SIMD lane where problem and method allow.
-// Results have the bits of the single runs, whatever the lanes and the number of threads.
+// A sweep runs every member of a family of scenarios on all cores, and in SIMD lanes if problem and method allow it.
+// The results are bit for bit those of single runs, for any lanes and any number of threads.
 #pragma once
 
 #include <atomic>
@@ -34,10 +34,10 @@ struct MemberStop {
   FrameDigits digits{};  // the same in arithmetic beyond double
 };
 
-/// The result of a member; of one that failed, its last good state. What its lists hold is called as SweepNames says.
+/// The result of a member; for a failed one its last good state. SweepNames has the names of the entries of its lists.
 struct MemberRow {
   Outcome status = Outcome::not_run;
-  bool no_start = false;  // no start has the energy asked for, or a formula of it no value: it cannot be run
+  bool no_start = false;  // no start has the requested energy, or a formula has no value, so it cannot be run
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;
@@ -56,12 +56,12 @@ struct MemberRow {
   double section_residual = 0;              // the largest
   std::string section_message;              // why points may be missing
   std::string message;                      // of a failure, and why there is no start
-  bool nonsense = false;                    // done, but its energy is off by more than it can be
+  bool nonsense = false;                    // done, but the energy error is so large that the result is meaningless
 
   /// As it is called in files.
   std::string status_name() const { return no_start ? "no_start" : std::string(name(status)); }
   std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
-  /// Whether there is nothing left to be done for it.
+  /// Whether the member is finished.
   bool is_finished() const { return no_start || (status != Outcome::not_run && status != Outcome::stopped); }
   /// All of it, for what a sweep goes on from (detail/core/archive.hpp).
   template <class Archive>
@@ -112,7 +112,7 @@ struct SweepOptions {
 
 class Sweep {
  public:
-  /// Reads and checks every member. Where something is wrong, complaints() lists it and nothing can be run.
+  /// Reads and checks every member. If there are errors, complaints() lists them and the sweep cannot run.
   Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets, Varied varied,
         SweepOptions options);
 
@@ -153,9 +153,9 @@ class Sweep {
   /// Members that are still to be run.
   std::size_t members_left() const;
 
-  /// Runs all members that are not finished. Rows change while it goes on: who looks at them holds them.
-  /// @param pulse called several times a second with the steps taken by all; false stops
-  /// @param finished called by any thread, one at a time, with a member that is finished; what it throws ends the sweep
+  /// Runs all members that are not finished. Rows change meanwhile; use hold_rows() to read them.
+  /// @param pulse called several times a second with the steps taken by all members; returns false to stop
+  /// @param finished called by any thread, one at a time, with a finished member; an exception ends the sweep
   void run(const std::function<bool(std::int64_t)>& pulse, const std::function<void(std::size_t)>& finished = {});
   /// No row changes while it is held.
   [[nodiscard]] std::unique_lock<std::mutex> hold_rows() const { return std::unique_lock(rows_mutex_); }

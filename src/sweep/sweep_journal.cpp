@@ -15,8 +15,9 @@ namespace hamflow {
 
 namespace {
 
-// The file: these words, then parts. A part is its length, its bytes, and the hash of both: the head, then records.
-constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP", which also tells the order of bytes
+// The file has these words, then parts: the header, then records. A part is its length, its bytes, and the hash of
+// both.
+constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP"; it also shows the byte order
 constexpr std::uint64_t format = 3;
 constexpr std::size_t word = sizeof(std::uint64_t);
 
@@ -60,13 +61,14 @@ SweepPast journal_in(std::span<const std::byte> left, const std::string& name) {
   if (left.size() < sizeof found) throw damaged("is damaged: it is too short");
   Reader(left.first(sizeof found))(found);
   if (found[0] != magic)
-    throw damaged("was not written by hamflow, or on a machine with another order of bytes, or is damaged");
+    throw damaged("was not written by hamflow, or on a machine with another byte order, or is damaged");
   if (found[1] != format) {
-    throw damaged("has format " + std::to_string(found[1]) + ", this hamflow knows " + std::to_string(format));
+    throw damaged("has format " + std::to_string(found[1]) + "; this version of hamflow reads format " +
+                  std::to_string(format));
   }
   left = left.subspan(sizeof found);
   const auto head = next_part(left);
-  if (head.empty()) throw damaged("is damaged: its head is not whole");
+  if (head.empty()) throw damaged("is damaged: its header is incomplete");
   try {
     Reader ar(head);
     ar(past.head);
@@ -114,8 +116,8 @@ void SweepJournal::append(std::uint64_t member, const FinishedMember& finished) 
   while (!left.empty()) {
     const ssize_t count = write(descriptor_, left.data(), left.size());
     if (count < 0 && errno != EINTR) {
-      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) + "; the same with " +
-                      option_name("resume") + " goes on with the members that are not done");
+      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) +
+                      "; to run the remaining members, repeat the command with " + option_name("resume"));
     }
     if (count > 0) left = left.subspan(static_cast<std::size_t>(count));
   }

@@ -1,5 +1,6 @@
-// members.bin: what a sweep goes on from. A head that says which sweep it is, then a record for each member that is
-// finished, appended when it is. A kill, a full disk or damage costs records at the end: their members are run again.
+// members.bin, the checkpoint of a sweep: a header that identifies the sweep, then a record for each finished member,
+// appended when it finishes. After a kill, a full disk or damage the last records may be lost; their members are run
+// again.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +14,7 @@
 
 namespace hamflow {
 
-/// Which sweep it is: what has to be the same for it to go on.
+/// The header: the settings that must be the same for a sweep to be resumed.
 struct SweepHead {
   std::string version;            // of hamflow
   std::vector<std::string> keys;  // settings of the scenario that the members have in common
@@ -27,7 +28,7 @@ struct SweepHead {
   }
 };
 
-/// A member that is finished.
+/// A finished member.
 struct FinishedMember {
   std::int64_t steps = 0;  // that it was to take; it took fewer where it failed or an event ended it
   double seconds = 0;      // of the sweep until then, all its parts together
@@ -45,14 +46,14 @@ struct SweepPast {
   std::uint64_t dropped_bytes = 0;  // at the end, half written or damaged
 };
 
-/// @throws FileError when it cannot be read, or its head is damaged or of another format
+/// @throws FileError if it cannot be read, or its header is damaged or has another format
 SweepPast read_journal(const std::filesystem::path& file);
 /// @param name of the file, in messages   @throws FileError as read_journal does
 SweepPast journal_in(std::span<const std::byte> bytes, const std::string& name);
 /// The content of a journal.
 std::vector<std::byte> journal_bytes(const SweepPast& past);
 
-/// Appends records. A record is in the hands of the system once append() returns.
+/// Appends records. After append() returns, the operating system has the record.
 class SweepJournal {
  public:
   /// A file of its own in the place of what was there, with what is known of members.   @throws FileError
@@ -60,9 +61,9 @@ class SweepJournal {
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
-  /// @throws FileError when it cannot be written, e.g. because the disk is full
+  /// @throws FileError if it cannot be written, e.g. because the disk is full
   void append(std::uint64_t member, const FinishedMember& finished);
-  /// Until then a crash of the machine, not of the sweep, can lose what was appended.   @throws FileError
+  /// Forces the records to the disk, so that they survive a crash of the machine.   @throws FileError
   void force() const { force_to_disk(file_); }
 
  private:

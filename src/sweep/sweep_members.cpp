@@ -92,8 +92,8 @@ void Sweep::refuse_different_kinds() {
   for (const auto& [kind, first] : first_of_kind_) firsts.push_back(first);
   std::sort(firsts.begin(), firsts.end());
   found_[{"--vary", 0, 0, "problem",
-          "found members of different problems or numbers of coordinates; allowed one table, that is one problem of "
-          "one size"}] = {firsts[1]};
+          "found members with different problems or numbers of coordinates; allowed members with the same problem and "
+          "size, because they share a table"}] = {firsts[1]};
 }
 
 MemberObservables Sweep::observables_of(const Scenario& scenario) const {
@@ -108,9 +108,10 @@ void Sweep::unite_names() {
     return std::to_string(clash.sizes[i]) + (clash.sizes[i] == 1 ? " number in " : " numbers in ") +
            varied_.described(clash.members[i]);
   };
-  complaints_.push_back({"--vary", 0, 0, "problem",
-                         "found " + clash.name + " of " + part(0) + ", and of " + part(1) +
-                             "; allowed one table, that is invariants that have one size where they have one name"});
+  complaints_.push_back(
+      {"--vary", 0, 0, "problem",
+       "found " + clash.name + " of " + part(0) + ", and of " + part(1) +
+           "; allowed invariants that have the same size in all members, because they share a table"});
 }
 
 void Sweep::add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths) {

@@ -32,7 +32,7 @@ std::size_t common_length(const std::vector<Vary>& keys) {
     if (first == nullptr) first = &key;
     if (key.texts.size() == first->texts.size()) continue;
     throw Error("found " + std::to_string(first->texts.size()) + " values of " + first->path + " and " +
-                std::to_string(key.texts.size()) + " of " + key.path + " in step; allowed lists of equal length");
+                std::to_string(key.texts.size()) + " of " + key.path + "; allowed lists of equal length");
   }
   return first == nullptr ? 1 : first->texts.size();
 }
@@ -117,8 +117,8 @@ void Varied::check_formula(std::size_t key, std::vector<std::size_t> behind) {
                   (others.empty() ? ", and there are none" : ": " + joined(others)) + suggestion(named.path, others));
     }
     if (std::find(behind.begin(), behind.end(), other) != behind.end()) {
-      throw Error(in_formula + named.path + column + ", which follows from " + own.path +
-                  " itself; allowed formulas of keys that have values");
+      throw Error(in_formula + named.path + column + ", which itself depends on " + own.path +
+                  "; allowed formulas of keys that have values");
     }
     check_formula(other, behind);
   }

@@ -113,7 +113,7 @@ class Certify(CommandCase):
         self.assertIn("did you mean samples/t?", wrong)
         self.assertIn("note, samples/e, samples/t, short", wrong)
         self.assertIn("a group", self.refused("run.h5", "samples", "samples/e:1"))
-        self.assertIn("no numbers", self.refused("run.h5", "samples/t", "note"))
+        self.assertIn("does not contain numbers", self.refused("run.h5", "samples/t", "note"))
         self.assertIn("2 energies; allowed 3000", self.refused("run.h5", "samples/t", "short"))
         self.write("damaged.h5", "")
         (self.folder / "damaged.h5").write_bytes(b"\x89HDF\r\n\x1a\nno more")
@@ -126,10 +126,10 @@ class Certify(CommandCase):
         self.assertEqual(found["drift"], done["certificate"]["drift"])
 
     def test_wrong_files(self):
-        self.assertIn("is there such a file?", self.refused("nothing.csv", "t", "E", status=3))
+        self.assertIn("does the file exist?", self.refused("nothing.csv", "t", "E", status=3))
         self.assertIn("is a folder", self.refused(".", "t", "E", status=3))
         for text, words in [
-                ("", "found an empty file"), ("\n\n", "found an empty file"), ("t,E\n", "no numbers"),
+                ("", "the file is empty"), ("\n\n", "the file is empty"), ("t,E\n", "no numbers"),
                 ("t,E\n1,2\n2,x\n", "e.csv:3:3: error: found 'x' for E; allowed finite numbers"),
                 ("t,E\n1,2\n2,\n", "e.csv:3:3: error: found '' for E"),
                 ("t E\n1 2\n2 nan\n", "e.csv:3:3: error: found 'nan'"), ("t E\n1 2\ninf 2\n", "e.csv:3:1: error: found 'inf'"),

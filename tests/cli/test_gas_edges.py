@@ -171,8 +171,8 @@ class Edges(CommandCase):
         two, many = "the 2 samples from 0.005 to 0.007", "the 21 samples from 0 to 0.01"
         for run, at, status, said in (
                 ("late", "-0.001", 2, f"found the time -0.001; allowed times of {two}; the nearest is at 0.005"),
-                ("late", "0.0058", 0, f"note: no sample is at the time 0.0058, but at those of {two}; the nearest is at 0.005, which is drawn"),
-                ("all", "0.005,0.00512", 0, f"note: no sample is at the time 0.00512, but at those of {many}; the nearest is at 0.005,"),
+                ("late", "0.0058", 0, f"note: no sample is at the time 0.0058, only at those of {two}; the nearest is at 0.005, which is drawn"),
+                ("all", "0.005,0.00512", 0, f"note: no sample is at the time 0.00512, only at those of {many}; the nearest is at 0.005,"),
                 ("all", "1", 2, "the nearest is at 0.01"),
                 ("back", "-0.00512", 0, "the nearest is at -0.005,"), ("back", "-0.011", 2, "the nearest is at -0.01")):
             for kind in ("particles", "radial"):

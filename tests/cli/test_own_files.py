@@ -196,7 +196,7 @@ class OwnFiles(CommandCase):
         self.run_to("c", "--set", "method.name=verlet")
         more = ("--resume", "--set", "run.steps=900")
         for other, name, words in (("b", "run.h5", "of another run"), ("c", "run.h5", "of another run"),
-                                   ("c", "trajectory.csv", "other samples"), ("c", "summary.json", "method differs")):
+                                   ("c", "trajectory.csv", "not those of the run"), ("c", "summary.json", "method differs")):
             for arguments in (more, ("--resume",)):
                 with self.subTest(other=other, name=name, arguments=arguments):
                     shutil.rmtree(self.folder / "x", ignore_errors=True)
@@ -331,7 +331,7 @@ assert [len(f[name]) for name in ('t', 'q', 'energy', 'observables/r', 'observab
         subprocess.run([sys.executable, "-c", look], cwd=self.folder, check=True)
         for file in ("r", "x.h5"):
             said = self.hamflow("plot", file, "-o", "x.svg").stderr
-            self.assertIn("/observables/short is left out: it has 2 rows, the run 601 samples", said)
+            self.assertIn("/observables/short is left out: it has 2 rows, but the run has 601 samples", said)
             self.assertIn("/observables/text is left out", said)
 
     def test_a_figure_is_written_through_a_link_as_other_outputs_are(self):

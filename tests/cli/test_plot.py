@@ -188,7 +188,7 @@ steps = 2
         self.assertIn("central-force, kahan-li8, dt = 0.005, quad", labels)
 
     def test_what_is_no_run(self):
-        for name, said in {"nowhere.run": "does not exist", "kepler.toml": "no run of hamflow"}.items():
+        for name, said in {"nowhere.run": "does not exist", "kepler.toml": "is not a run of hamflow"}.items():
             text = self.hamflow("plot", name, "--kind", "orbit", "-o", "x.svg", status=3).stderr
             self.assertIn(f"{name} cannot be read", text)
             self.assertIn(said, text)
@@ -305,7 +305,7 @@ steps = 2
     def test_pairs_need_something_that_holds_them(self):
         self.write("n2.toml", BODIES)
         self.run_some("n2.toml", out="n2")
-        self.assertIn('found "radial", but nothing holds the 2 bodies', self.refused("n2", "--kind", "radial"))
+        self.assertIn('found "radial", but the 2 bodies have no container', self.refused("n2", "--kind", "radial"))
         self.run_some(str(EXAMPLES / "gas_121.toml"), "problem.particles_per_side=2", "problem.dimension=3",
                       "problem.container={kind='box',size=[3,3,3]}", "run.steps=20", "run.dt=0.01", out="box")
         labels = self.plot("box", kind="radial")
@@ -325,9 +325,9 @@ steps = 2
         self.run_some("n2.toml", "run.record_every=1000", out="few")
         self.run_some("n2.toml", out="all")
         for kind in ("tracks", "time"):
-            self.assertIn("3 samples are joined", self.plot("n2.rev", kind=kind))
-            self.assertIn("2 samples are joined", self.plot("few", kind=kind))
-        self.assertFalse([label for label in self.plot("all", kind="time") if "joined" in label])
+            self.assertIn("lines join 3 samples", self.plot("n2.rev", kind=kind))
+            self.assertIn("lines join 2 samples", self.plot("few", kind=kind))
+        self.assertFalse([label for label in self.plot("all", kind="time") if "lines join" in label])
 
     def test_what_other_folders_are(self):
         self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--out", "c.cmp", "--quiet")

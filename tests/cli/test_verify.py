@@ -96,7 +96,7 @@ class Verify(CommandCase):
             self.assertIn("a step", cell["reason"])
         for measurement in method["measurements"]:
             self.assertIsNone(measurement["order"]["slope"])
-            self.assertIn("a step failed with 13 of 13 step lengths", measurement["order"]["reason"])
+            self.assertIn("a step failed with 13 of 13 step sizes", measurement["order"]["reason"])
             self.assertEqual(measurement["energy"]["drift"], "undecided")
             for number in ("level", "fine_level", "p_value", "growth_exponent"):
                 self.assertIsNone(measurement["energy"][number], number)
@@ -112,7 +112,7 @@ class Verify(CommandCase):
             self.assertIn("Newton did not converge", kept["reason"])
         text = self.hamflow("verify", "gauss(2,max_iterations=1)", status=1).stdout
         self.assertIn("unclear: order, explicit, symplectic", text)
-        self.assertIn("what was not measured in full, and why", text)
+        self.assertIn("properties that were not fully measured", text)
         self.assertNotRegex(text, r"DIFFERS|\b(inf|nan)\b|/ 0\.00")
 
     def test_where_finer_steps_fail_no_level_and_no_jacobian_are_told(self):

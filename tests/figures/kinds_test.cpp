@@ -65,7 +65,7 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
             "found \"phase\" for a problem with 13 degrees of freedom, of which at most 12 fit on a page; choose "
             "columns with --x and --y; allowed time, energy-error, energy");
   EXPECT_EQ(refused_figure("condition", {.degrees_of_freedom = 1}),
-            "found \"condition\", which needs method.diagnostics = true of an implicit method; allowed phase, "
+            "found \"condition\", which needs an implicit method with method.diagnostics = true; allowed phase, "
             "time, energy-error, energy");
   EXPECT_EQ(refused_figure("section", {.degrees_of_freedom = 2}),
             "found \"section\", which needs run.section, e.g. { coordinate = \"q1\" }; allowed orbit, phase, "

@@ -1,5 +1,5 @@
-// How well the Newton iteration of an implicit step is conditioned, over time: condition and determinant of the
-// tangent, condition of M^-1, and iterations.   [Gross1999, figures 3.27, 3.28]
+// Conditioning of the Newton iteration of an implicit step over time: condition and determinant of the Jacobian,
+// condition of M^-1, and iterations.   [Gross1999, figures 3.27, 3.28]
 #include <algorithm>
 
 #include "../figure_kind.hpp"
@@ -9,7 +9,7 @@ namespace hamflow::figures {
 
 namespace condition {
 std::string refused(const FigureFacts& facts) {
-  return facts.diagnostics ? "" : ", which needs method.diagnostics = true of an implicit method";
+  return facts.diagnostics ? "" : ", which needs an implicit method with method.diagnostics = true";
 }
 
 std::string obstacle(const FigureData& data) {
@@ -59,7 +59,7 @@ Page page(const Figure& figure) {
 
 extern const FigureKind condition_figure{
     "condition",
-    "condition and iterations of the Newton steps over time, of an implicit method with diagnostics",
+    "condition and iterations of Newton's method over time, for an implicit method with diagnostics",
     6,
     condition::refused,
     condition::obstacle,

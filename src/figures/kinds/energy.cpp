@@ -56,7 +56,7 @@ Page page(const Figure& figure) {
 }  // namespace energy
 
 extern const FigureKind energy_figure{"energy",
-                                      "the energy H over time, of H(q, p, t) less the integral of dH/dt",
+                                      "the energy H over time; for H(q, p, t) minus the integral of dH/dt",
                                       5,
                                       without_energies,
                                       energy::obstacle,

@@ -10,7 +10,7 @@ namespace hamflow::figures {
 namespace energy_error {
 std::string obstacle(const FigureData& data) {
   if (finite_points(data.t, data.energy).x.empty()) return no_samples("energy");
-  return std::isfinite(data.energy.front()) ? "" : "the energy of the first sample, to compare with, is not finite";
+  return std::isfinite(data.energy.front()) ? "" : "the energy of the first sample is not finite";
 }
 
 double largest(const std::vector<double>& error) {
@@ -182,8 +182,8 @@ Page page(const Figure& figure) {
   }
   Page all{figure.runs.front().title, {panel}};
   if (std::any_of(figure.runs.begin(), figure.runs.end(), has_range)) {
-    all.notes.emplace_back(logarithmic ? "the largest of all steps, not of the samples alone"
-                                       : "band: smallest to largest of all steps, not of the samples alone");
+    all.notes.emplace_back(logarithmic ? "largest error of all steps, not only of the samples"
+                                       : "band: smallest to largest error of all steps, not only of the samples");
   }
   return all;
 }

@@ -33,7 +33,7 @@ std::string body_name(const FigureData& data, std::size_t body) {
 std::string apart(const Figure& figure) {
   const FigureData& first = figure.runs.front();
   for (const FigureData& run : figure.runs) {
-    if (bodies(run) > 1) return "colours tell the bodies of one run apart; allowed runs of one body, or a run alone";
+    if (bodies(run) > 1) return "colours mark the bodies of one run; allowed several runs of one body, or a single run";
     if (is_polar(run) != is_polar(first) && run.coordinates != std::vector<std::string>{"x", "y"} &&
         first.coordinates != std::vector<std::string>{"x", "y"}) {
       return same_coordinates(figure);
@@ -189,7 +189,7 @@ Page page(const Figure& figure) {
 }  // namespace orbit
 
 extern const FigureKind orbit_figure{"orbit",
-                                     "the path in the plane of 2 degrees of freedom, or the paths of bodies in space",
+                                     "the path in the plane for 2 degrees of freedom, or the paths of bodies in space",
                                      1,
                                      orbit::refused,
                                      orbit::obstacle,

@@ -1,5 +1,4 @@
-// Where the particles of a gas, or bodies, are at the first and the last sample, or at chosen times, and what holds
-// them.
+// The positions of particles or bodies at the first and the last sample, or at chosen times, with their container.
 #include "../particles.hpp"
 
 #include <algorithm>
@@ -93,15 +92,16 @@ Page page(const Figure& figure) {
 }
 }  // namespace particles
 
-extern const FigureKind particles_figure{"particles",
-                                         "where the particles of a gas are, first and last or at the times of --at, "
-                                         "and what holds them",
-                                         8,
-                                         without_particles,
-                                         no_places,
-                                         one_run,
-                                         axes_of_particles,
-                                         particles::page,
-                                         true};
+extern const FigureKind particles_figure{
+    "particles",
+    "the positions of the particles of a gas and their container, at the start and "
+    "the end or at the times of --at",
+    8,
+    without_particles,
+    no_places,
+    one_run,
+    axes_of_particles,
+    particles::page,
+    true};
 
 }  // namespace hamflow::figures

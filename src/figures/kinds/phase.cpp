@@ -160,7 +160,7 @@ Page page(const Figure& figure) {
 }  // namespace phase
 
 extern const FigureKind phase_figure{"phase",
-                                     "the phase plane (q, p) of each coordinate, or the planes of --x and --y",
+                                     "the phase plane (q, p) of each coordinate, or the columns of --x and --y",
                                      2,
                                      phase::refused,
                                      phase::obstacle,

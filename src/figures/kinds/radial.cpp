@@ -29,12 +29,12 @@ double neighbours(const FigureData& data, const Region& region) {
 
 std::string obstacle(const FigureData& data) {
   if (data.t.empty()) return no_samples("position");
-  if (data.particles.count < 2) return "there is one particle, and no pair";
+  if (data.particles.count < 2) return "a single particle has no pairs";
   const std::vector<double> q = data.particles.positions(data.t.size() - 1);
   if (!are_finite(q)) return "the last sample has positions that are not finite";
   if (!is_held(data.particles) && data.particles.count < fewest_free) {
-    return "nothing holds the " + std::to_string(data.particles.count) + " bodies, and g(r) of fewer than " +
-           std::to_string(fewest_free) + " compares with no volume that they would fill";
+    return "the " + std::to_string(data.particles.count) + " bodies have no container, and fewer than " +
+           std::to_string(fewest_free) + " bodies do not define a volume for g(r)";
   }
   const Region region = region_of(data.particles, q);
   if (!std::isnormal(region.volume())) return "the particles fill no volume";
@@ -168,8 +168,8 @@ Page page(const Figure& figure) {
 }  // namespace radial
 
 extern const FigureKind radial_figure{"radial",
-                                      "the pair distribution g(r) of the particles of a gas, over the second half of "
-                                      "the run or at the times of --at",
+                                      "the pair distribution g(r) of the particles of a gas, averaged over the second "
+                                      "half of the run or at the times of --at",
                                       10,
                                       without_particles,
                                       radial::obstacle,

@@ -57,8 +57,8 @@ Page page(const Figure& figure) {
 }  // namespace section
 
 extern const FigureKind section_figure{"section",
-                                       "the points of a Poincare section, of a run with run.section and 2 or more "
-                                       "degrees of freedom, or a section of time",
+                                       "the points of a Poincare section, for a run with run.section and 2 or more "
+                                       "degrees of freedom, or a section in time",
                                        7,
                                        section::refused,
                                        section::obstacle,

@@ -90,7 +90,7 @@ std::string samples_note(const Figure& figure) {
   const std::size_t first = figure.runs.front().t.size();
   const bool alike =
       std::all_of(figure.runs.begin(), figure.runs.end(), [&](const FigureData& run) { return run.t.size() == first; });
-  return alike ? joined_note(first) : "samples far apart are joined";
+  return alike ? joined_note(first) : "lines join samples that are far apart";
 }
 
 Page page(const Figure& figure) {
@@ -130,7 +130,7 @@ Page page(const Figure& figure) {
 }  // namespace time
 
 extern const FigureKind time_figure{"time",
-                                    "coordinates and momenta over time, or the columns of --y over that of --x",
+                                    "coordinates and momenta over time, or the columns --y over the column --x",
                                     3,
                                     time::refused,
                                     time::obstacle,

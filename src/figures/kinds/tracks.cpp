@@ -71,7 +71,7 @@ Page page(const Figure& figure) {
   }
   if (const std::string note = part_note(drawn.size(), of.count); !note.empty()) all.notes.push_back(note);
   if (samples < data.t.size()) {
-    all.notes.push_back(std::to_string(samples) + " of " + std::to_string(data.t.size()) + " samples are joined");
+    all.notes.push_back("lines join " + std::to_string(samples) + " of " + std::to_string(data.t.size()) + " samples");
   } else if (sparse && !data.every_step) {
     all.notes.push_back(joined_note(samples));
   }
@@ -81,7 +81,7 @@ Page page(const Figure& figure) {
 }  // namespace tracks
 
 extern const FigureKind tracks_figure{"tracks",
-                                      "the paths of the particles of a gas, with dots where they end",
+                                      "the paths of the particles of a gas, with dots at their ends",
                                       9,
                                       without_particles,
                                       no_places,
