@@ -340,7 +340,7 @@ def make_index() -> None:
             "a C++ library. Begin with [Get it](project/readme.md) and the first tutorial, [Which method keeps an orbit?](tutorials/orbits.md)\n")
     page += toctree("Tutorials", [f"tutorials/{name}" for name in TUTORIALS])
     page += toctree("How-to", how_to)
-    page += toctree("Reference", ["methods/index", "problems/index", "reference", "reference/files", "python", "cpp/index", "references"])
+    page += toctree("Reference", ["methods/index", "problems/index", "Keys of scenarios <reference>", "reference/files", "python", "cpp/index", "references"])
     page += toctree("Explanation", ["design/README", *design, "project/theses", "project/bench"])
     page += toctree("Project", ["project/readme", "project/contributing", "project/hacking", "project/changelog"])
     (SOURCE / "index.md").write_text(page)
