@@ -98,7 +98,7 @@ def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None)
 
     Notes
     -----
-    The tests and their limits are those of `hamflow run`; see "Certificates" in docs/design.md.
+    The tests and their limits are those of `hamflow run`; see docs/design/certificates.md.
 
     Examples
     --------

@@ -176,7 +176,7 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
 
 /// Whether straight code is faster than the compiled loop over bodies or particles. While it fits into the first cache
 /// of instructions it is; longer code takes a fifth of a nanosecond an operation, which roots and quotients of a loop
-/// exceed, but not sums and products that are vectorised (fput). Measured: docs/design.md, Recorded steps.
+/// exceed, but not sums and products that are vectorised (fput). Measured: docs/design/recorded-steps.md.
 static bool beats_loops(const Program& program) {
   constexpr std::size_t in_first_cache = 3500, share = 40;
   const auto count = [&](auto... kinds) {

@@ -1,5 +1,5 @@
 // A part of a step, recorded: Psi_h of a method that remembers nothing, with the length h as an input. Walls are
-// located on such parts (docs/design.md, Walls), some six of them a bounce, each of another length.
+// located on such parts (docs/design/walls.md), some six of them a bounce, each of another length.
 #pragma once
 
 #include <functional>

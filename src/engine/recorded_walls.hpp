@@ -1,4 +1,4 @@
-// What a recorded step does at hard walls (docs/design.md, Walls): where one may be met it is left undone and the loop
+// What a recorded step does at hard walls (docs/design/walls.md): where one may be met it is left undone and the loop
 // ends, so that somebody looks closer; or, where nobody has to look, the bounce is a choice within the step, and
 // counted.
 #pragma once

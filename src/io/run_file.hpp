@@ -1,7 +1,8 @@
 // run.h5: the tables of a run. Written in single-writer-multiple-readers mode and flushed several times a second, so
-// that it can be read while it grows, and after a crash at any moment, up to the last flush. docs/files.md lists what
-// is in it. A run that goes on copies the rows that stay into a fresh file, which then takes the place of the old one:
-// only a reader can open what a crash leaves. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
+// that it can be read while it grows, and after a crash at any moment, up to the last flush. docs/reference/files.md
+// lists what is in it. A run that goes on copies the rows that stay into a fresh file, which then takes the place of
+// the old one: only a reader can open what a crash leaves. Open a file that was not closed with H5F_ACC_RDONLY |
+// H5F_ACC_SWMR_READ.
 #pragma once
 
 #include <cstdint>

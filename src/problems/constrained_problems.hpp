@@ -1,5 +1,5 @@
 // Problems of the catalogue in Cartesian coordinates with constraints. Their Hamiltonians are texts, as those of the
-// problem `formula` are: nothing is instantiated for them but their charts.   (docs/design.md, Constraints)
+// problem `formula` are: nothing is instantiated for them but their charts.   (docs/design/constraints.md)
 #pragma once
 
 #include <functional>

@@ -318,7 +318,7 @@ bool keeps_an_energy(const Request& request, const ProblemEntry& problem, const 
          request.method.options.count(tolerance_option) == 0 && !problem.particles;
 }
 
-/// Whether it has met walls at which the energy of its method walks (docs/design.md, Walls).
+/// Whether it has met walls at which the energy of its method walks (docs/design/walls.md).
 bool walks_at_walls(const Request& request, const Simulation& simulation) {
   const auto& walls = request.walls;
   if (!walls || !(walls->rule == WallRule::event || walls->rule == WallRule::reject)) return false;

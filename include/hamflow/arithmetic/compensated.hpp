@@ -28,7 +28,7 @@ struct Compensated {
     static constexpr const Real& read(const Stored& s) { return s.high; }
     /// s <- s + r: the error of high + (r + low) is found exactly (two-sum, no assumption on magnitudes) and kept.
     static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
-    /// The same with r + low exact as well. What is lost there had a mean on some orbits (docs/design.md, cg(1)).
+    /// The same with r + low exact as well. What is lost there had a mean on some orbits (docs/design/cg.md).
     static constexpr void add_keeping(Stored& s, const Real& r) {
       const R increment = r + s.low;
       const R of_low = increment - r;

@@ -11,7 +11,7 @@
 
 namespace hamflow {
 
-/// What happens where a coordinate meets a hard wall (docs/design.md, Walls), or that walls are terms of H.
+/// What happens where a coordinate meets a hard wall (docs/design/walls.md), or that walls are terms of H.
 enum class WallRule { event, mirror, reject, soft };
 /// Their names, in this order.
 const std::vector<std::string>& wall_rules();

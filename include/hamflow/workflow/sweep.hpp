@@ -83,7 +83,7 @@ class ScenarioSweep {
   /// What there is so far, also where members are left; writes the folder, if there is one. @throws FileError
   SweepReport report();
   /// A row for each member, also while some are not finished: varied/KEY, member/status, member/steps, final/t,
-  /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/files.md, sweep.h5).
+  /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/reference/files.md, sweep.h5).
   Table members() const;
   /// A row for each point of the members' sections: section/member, section/t, section/q, section/p.
   Table sections() const;

@@ -1,5 +1,5 @@
 // What a user can choose about the methods that control their own sub-steps, and what they then claim.
-// How they choose them is explained in docs/design.md, dop853 and taylor.
+// How they choose them is explained in docs/design/adaptive.md.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// What a run has recorded, as tables. docs/files.md says what each column is; the files of a run have the same columns.
+// What a run has recorded, as tables. docs/reference/files.md says what each column is; the files of a run have the
+// same columns.
 #pragma once
 
 #include <string>

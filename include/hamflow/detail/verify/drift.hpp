@@ -1,5 +1,5 @@
 // Does the energy error drift, walk, or stay? Statistics of recorded energies, of one run or of an ensemble.
-// Why these statistics is explained in docs/design.md, Certificates, reversal, comparison.
+// Why these statistics is explained in docs/design/certificates.md.
 #pragma once
 
 #include <optional>

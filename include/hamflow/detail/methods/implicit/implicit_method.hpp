@@ -80,7 +80,7 @@ class ImplicitMethod {
     }
   }
   /// The state was changed on the way: guesses are dropped. Points that "auto" has found stay: found anew behind every
-  /// bounce they would be the fewest that do, and what those leave of the energy has a sign (docs/design.md, Walls).
+  /// bounce they would be the fewest that do, and what those leave of the energy has a sign (docs/design/walls.md).
   void forget_guesses() { newton_.forget(); }
   Effort effort() const { return effort_; }
   template <class Archive>
