@@ -41,9 +41,9 @@ std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vecto
                               std::vector<Series> how, Openings& drawn);
 /// What is drawn in place of samples may reach further than they do.
 void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y);
-/// "line: the first steps, to t = 12 of 300", of figures with an first_steps; nothing where that is all of the run.
+/// "line: the first steps, to t = 12 of 300", of figures with first_steps; nothing where that is all of the run.
 void note_opening(Page& page, const FigureData& data);
-/// "3 samples are joined": of lines over samples between which the motion is another one than their chords.
+/// "lines join 3 samples": of lines over samples between which the motion is another one than their chords.
 std::string joined_note(std::size_t samples);
 /// Whether a curve over time turns back from sample to sample, or has a few samples alone. Turns of a tenth of its
 /// range count: rounding is none.

@@ -123,7 +123,7 @@ void ScenarioReader::read_length(TomlTable& table) {
       const double fitting = std::max(whole, 1.0);
       table.complain(end_key, table.found(end_key) + ", which is " + shortest(ratio) +
                                   " steps of dt = " + shortest(scenario_.dt) +
-                                  "; allowed a whole number of steps, e.g. dt = " + shortest(*t_end / fitting) +
+                                  "; allowed a whole number of steps, nearest dt = " + shortest(*t_end / fitting) +
                                   " or " + end_key + " = " + shortest(fitting * scenario_.dt));
     } else {
       scenario_.steps = static_cast<std::int64_t>(whole);

@@ -141,7 +141,7 @@ class Certify(CommandCase):
             self.write("e.csv", text)
             self.assertIn(words, self.refused("e.csv", "t", "E"), text)
         self.write("e.csv", rows(",", T, BOUNDED))
-        self.assertIn("allowed numbers from 1 to 2: e.csv has no names", self.refused("e.csv", "t", "2"))
+        self.assertIn("allowed numbers from 1 to 2, because e.csv has no column names", self.refused("e.csv", "t", "2"))
         self.assertIn("--energy: error: found '3'", self.refused("e.csv", "1", "3"))
         self.write("e.csv", "time,E,E\n" + rows(",", T, BOUNDED, LINEAR))
         self.assertIn("allowed time, E, E, or numbers from 1 to 3; did you mean time?", self.refused("e.csv", "tme", "2"))

@@ -171,7 +171,7 @@ steps = 100
             self.assertIn('allowed with coordinates = "cartesian"', text)
         self.assertIn("allowed 2, 3", self.refused(self.pendulum(PLANE + "\ndimension = 4")))
         for key in ("lyapunov", "eigenvalues"):
-            self.assertIn("with constraints; allowed in coordinates without any",
+            self.assertIn("with constraints; allowed in coordinates without constraints",
                           self.refused(self.pendulum(), "--set", f"run.{key}=true"))
         self.assertIn("lattice", self.refused(self.pendulum(), "--set", "run.arithmetic=lattice"))
         self.assertIn("inertias", self.refused(self.rods(), "--set", "problem.inertias=[1, 0]"))

@@ -135,7 +135,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
         # Observables of the problem are in every chart: nothing of output.observables is left out.
         said = self.hamflow("convert", "there.run", "--to", "generalised", "-o", "there.h5").stderr
         self.assertEqual(said.count("output.observables"), 0)
-        self.assertIn("not in there.h5: /events/wall, states of the run in cartesian coordinates", said)
+        self.assertIn("left out of there.h5: /events/wall, which hold states in cartesian coordinates", said)
         rows = self.hamflow("convert", "there.run", "--to", "generalised").stdout.splitlines()
         self.assert_close([float(x) for x in rows[-1].split(",")[1:3]], [there["final"]["q"][0], there["final"]["q"][3]])
 
@@ -234,7 +234,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
         # A circle of period 2 pi sqrt(2), seen about once a round: phi seems to stand.
         self.hamflow("run", "kepler.toml", "--set", "problem.orbit={kind='circle',r0=1}", "--set", "run.record_every=89",
                      "--set", "run.steps=890")
-        self.assertIn("turns are missing", self.hamflow("convert", "kepler.run", "--to", "polar").stderr)
+        self.assertIn("whole turns are lost", self.hamflow("convert", "kepler.run", "--to", "polar").stderr)
 
     def test_a_run_of_an_explicit_method(self):
         self.hamflow("run", "kepler.toml", "--set", "method.name=stv4")
@@ -273,7 +273,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
             (["--from", "cartesian", "--to", "polar", "--q", "1,x", "--p", "0,1"], "--q: error: found '1,x'"),
             (["--from", "cartesian", "--to", "generalised", "--q", "0,-2", "--p", "1,0"], "violates the constraints, |g(q)| = 3"),
             (["--from", "cartesian", "--to", "generalised", "--q", "0,-1", "--p", "1,5"], "leaves the constraints"),
-            (["--from", "cartesian", "--to", "absolute", "--q", "0,-1,0,-7", "--p", "1,0,0,3"], "off the constraints"),
+            (["--from", "cartesian", "--to", "absolute", "--q", "0,-1,0,-7", "--p", "1,0,0,3"], "violates the constraints"),
             (["kepler.toml", "--from", "cartesian", "--to", "polar"], "allowed one of them"),
             (["kepler.toml", "--to", "polar", "-o", "kepler.toml"], "the input file itself"),
             (["bad.toml", "--to", "polar"], "bad.toml:2:8: error: problem.name"),

@@ -203,7 +203,7 @@ class Gas(GasCase):
         self.write("plane.toml", HENON_HEILES)
         self.hamflow("run", "plane.toml", "--out", "plane", "--quiet")
         self.write("other.toml", START_OF % {"dimension": 2, "start": 'start = "file"\nfile = "plane/run.h5"'})
-        self.assertIn("a system without bodies", self.hamflow("run", "other.toml", "--out", "none", status=2).stderr)
+        self.assertIn("a run without bodies", self.hamflow("run", "other.toml", "--out", "none", status=2).stderr)
 
     def test_particles_that_may_pass_through_each_other(self):
         """Whatever the law; not of a method whose steps follow the motion."""

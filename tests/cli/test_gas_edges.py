@@ -60,7 +60,7 @@ class Edges(CommandCase):
             self.assertNotEqual(moved, 0)
             self.assertEqual(moved < 0, shorter)
             told = self.told(keys % (text, text), "run.arithmetic=lattice", "run.steps=0", status=2 if shorter else 0)
-            self.assertIn(f"too short for problem.cutoff = {text}/2" if shorter else "the edges of the periodic box are moved", told)
+            self.assertIn(f"too short for problem.cutoff = {text}/2" if shorter else "the edges of the periodic box are rounded", told)
 
     def test_a_box_without_edges_on_the_lattice(self):
         """All that is wrong is told, whatever the arithmetic."""
@@ -94,7 +94,7 @@ class Edges(CommandCase):
         for keys, said in (
                 ('container = { kind = "box", size = [3, 3], wall_rule = "mirror" }', "container.wall_rule: found \"mirror\" (a string); allowed as problem.wall_rule\n"),
                 ('container = { kind = "circle", walls = [] }', "allowed as problem.walls\n"),
-                ('container = { kind = "box", size = [3, 3], walls = [] }', "and problem.wall_rule says what happens"),
+                ('container = { kind = "box", size = [3, 3], walls = [] }', "problem.wall_rule defines what happens there"),
                 ("container = { skin = 0.2 }", "allowed as problem.cutoff.skin\n"),
                 ("container = { inner = 0.2 }", "allowed as problem.cutoff.inner\n"),
                 ("container = { cutoff = 2 }", "allowed as problem.cutoff\n"),

@@ -44,7 +44,7 @@ class GasReturns(GasCase):
             jump = (12 / radius**7 - 12 / radius**13) / 10
             self.assertAlmostEqual(found["distance"] / (0.001 * jump) % 1, 0, delta=1e-3)
             self.assertEqual(found["proves"], "nothing")
-            self.assertIn("as where a force jumps", found["reason"])
+            self.assertIn("a discontinuous force", found["reason"])
         for cutoff in (2.1, "{ radius = 2, kind = 'force-shifted' }"):
             self.assertEqual(back(cutoff)["proves"], "reversible to rounding", cutoff)
         self.assertEqual(back(2.1, "--set", "method={name='rk4'}")["proves"], "not reversible")

@@ -193,9 +193,9 @@ class H5md(CommandCase):
                                 (("--kind", "particles", "--y", "z"), "allowed x, y")):
             self.assertIn(said, self.hamflow("plot", "gas.run", *arguments, "-o", "g.svg", status=2).stderr)
         self.hamflow("run", "kepler.toml", "--quiet")
-        self.assertIn("no gas", self.hamflow("plot", "kepler.run", "--kind", "radial", "-o", "g.svg", status=2).stderr)
+        self.assertIn("neither a gas", self.hamflow("plot", "kepler.run", "--kind", "radial", "-o", "g.svg", status=2).stderr)
         wrong = self.hamflow("run", "kepler.toml", "--set", "output.figures=['tracks']", "--out", "none", status=2).stderr
-        self.assertIn("no gas", wrong)
+        self.assertIn("neither a gas", wrong)
         self.hamflow("reverse", "gas.toml", "--out", "kept", "--quiet")
         shown = texts("kept", "--kind", "particles")
         self.assertTrue({"x,  t = 0", "x,  t = 0.02", "x,  t = 0.04"} <= set(shown), shown)

@@ -225,7 +225,7 @@ class OwnFiles(CommandCase):
         self.run_to("a", "--resume")
         for foreign in ("", "[]", "{}", text[:100], '{"mine": 1}'):
             file.write_text(foreign)
-            self.refused("a", "--resume", words=("summary", "not of this run"))
+            self.refused("a", "--resume", words=("summary", "belongs to another run"))
 
     def test_a_finished_run_whose_files_are_gone_is_not_complete(self):
         self.run_to("a")

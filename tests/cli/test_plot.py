@@ -175,7 +175,7 @@ steps = 2
         self.assertIn("orbit", self.refused("k", "p", "--kind", "orbit"))
         self.run_some("kepler.toml", "run.steps=50", "output.observables={ e = 'x*y' }", out="e")
         self.assertRegex(self.refused("e", "k", "--kind", "time", "--y", "e"), 'found column "e" of .*k; allowed t, x')
-        self.assertIn("a run alone", self.refused("eight", "eight", "--kind", "orbit"))
+        self.assertIn("a single run", self.refused("eight", "eight", "--kind", "orbit"))
         self.assertIn("central-force", " ".join(self.plot("k", "p", kind="energy-error")))
 
     def test_energy_error_in_the_digits_of_the_run(self):

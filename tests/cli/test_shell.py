@@ -256,9 +256,9 @@ steps = 1000
     def test_errors_stop_a_pipe_and_name_the_line(self):
         for line, words in (
             ("stepp 3", "did you mean step?"), ("step x", "a whole number"), ("step -1", "a whole number"),
-            ("dt 0", "other than 0"), ("dt", "missing"), ("dt nan", "other than 0"), ("tol -1", "positive"),
+            ("dt 0", "other than 0"), ("dt", "no argument"), ("dt nan", "other than 0"), ("tol -1", "positive"),
             ("tol x", "positive"), ("method stv5", "did you mean stv4?"), ("method cg(1,0)", "from 1 to 64"),
-            ("show enrgy", "did you mean energy?"), ("save", "a folder"), ("quit now", "allowed nothing"),
+            ("show enrgy", "did you mean energy?"), ("save", "a folder"), ("quit now", "allowed no argument"),
         ):
             out = self.shell(f"# first\n\nstep 2\n{line}\nshow\n", status=2)
             self.assertEqual(out, "")

@@ -342,7 +342,7 @@ TEST_F(Figures, WrongRequestsNameWhatIsAllowed) {
   EXPECT_NE(why_not(Figure{{uneven}}, "energy").find("different numbers of samples"), std::string::npos);
   EXPECT_EQ(why_not(Figure{{uneven}}, "energy"),
             "found \"energy\", but energy and t have different numbers of samples; no other figure can be drawn from "
-            "these samples either");
+            "these samples");
   FigureData blind = ellipse();
   for (double& x : blind.q[0]) x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(why_not(Figure{{blind}}, "orbit"),

@@ -78,7 +78,7 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
 
 TEST(FigureKinds, ParticlesAreThoseOfAGasOrOfBodies) {
   for (const char* kind : {"particles", "tracks", "radial"}) {
-    EXPECT_NE(refused_figure(kind, {.degrees_of_freedom = 4}).find("no gas"), std::string::npos);
+    EXPECT_NE(refused_figure(kind, {.degrees_of_freedom = 4}).find("neither a gas"), std::string::npos);
     EXPECT_EQ(refused_figure(kind, {.degrees_of_freedom = 4, .particles = true}), "");
   }
 }
