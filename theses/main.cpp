@@ -49,7 +49,7 @@ std::filesystem::path folder_for(const Options& options) { return options.out.em
 void check_together(const Options& options) {
   if (options.quick && options.full) throw Rejection("--quick", "found --quick with --full; allowed one of them");
   if (options.out == "none")
-    throw Rejection("--out", "found --out none; allowed a folder: the page is what reproduce is for");
+    throw Rejection("--out", "found --out none; allowed a folder, because reproduce writes a page");
   if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
 }
 
@@ -96,7 +96,8 @@ int carry_out(const Options& options, bool& begun) {
   std::cout << (options.json ? report.json : report.text);
   if (!options.json && !options.quiet) {
     std::cout << fmt::format("{:<16}{}\n", "the page", (request.folder / "index.html").string());
-    if (report.status == "interrupted") std::cout << fmt::format("{:<16}the same command with --resume\n", "to go on");
+    if (report.status == "interrupted")
+      std::cout << fmt::format("{:<16}run the same command with --resume\n", "to continue");
   }
   for (const ExperimentReport& experiment : report.experiments) {
     if (experiment.status == "failed")
@@ -130,7 +131,7 @@ void show_claim(const Claim& claim) {
   line("rule", claim.rule.text);
   for (const Measured& one : claim.measured) {
     const std::string how = one.how.empty() ? "" : " (" + one.how + ")";
-    const std::string off = !std::isfinite(one.uncertainty) ? ", not known how certain"
+    const std::string off = !std::isfinite(one.uncertainty) ? ", uncertainty unknown"
                             : one.uncertainty > 0           ? fmt::format(" +- {:.2g}", one.uncertainty)
                                                             : "";
     line("measured", number_text(one) + off + how);
@@ -145,7 +146,7 @@ void show_claims(const std::string& id, const std::filesystem::path& folder) {
   const auto kept = is_there ? kept_experiment(folder, id) : std::nullopt;
   if (!kept) {
     std::cout << fmt::format(
-        "\n  Its claims are made while it runs, and {} has none of this version. To get them:\n"
+        "\n  The experiment states its claims when it runs, and {} has none from this version. To get them:\n"
         "    hamflow reproduce {} --quick{}{}\n    hamflow show {}{}\n",
         folder.string(), id, is_there ? " --resume" : "", folder == "reproduce" ? "" : " --out " + folder.string(), id,
         folder == "reproduce" ? "" : " --out " + folder.string());
@@ -212,8 +213,9 @@ int run(const Options& options) {
   } catch (const Error& error) {
     return rejected(json, {{"", 0, 0, "", error.what()}});
   } catch (const std::bad_alloc&) {
-    const std::string more = fmt::format("; what was computed is in {}, and the same command with --resume{} goes on",
-                                         folder_for(options).string(), options.force ? " in place of --force" : "");
+    const std::string more =
+        fmt::format("; all finished results are in {}; to continue, run the same command with --resume{}",
+                    folder_for(options).string(), options.force ? " in place of --force" : "");
     return failed(json, "memory", "out of memory" + (begun ? more : ""), exit_failed);
   } catch (const std::exception& error) {
     return failed(json, "error", error.what(), exit_failed);
@@ -267,20 +269,22 @@ void declare(CLI::App& app, Options& options) {
       "gross --resume\n  hamflow list experiments");
   app.add_option("experiment", options.what, "IDs of hamflow list experiments; gross, sonnleitner, all")
       ->type_name("ID...");
-  app.add_flag("--quick", options.quick, "about a minute for all");
-  app.add_flag("--full", options.full, "about ten hours for all");
+  app.add_flag("--quick", options.quick, "small size: about a minute for all experiments");
+  app.add_flag("--full", options.full, "full size: about ten hours for all experiments");
   app.add_option("--out", options.out, "folder for the page and its data [reproduce]")->type_name("DIR");
-  app.add_flag("--force", options.force, "carry out again what is there");
-  app.add_flag("--resume", options.resume,
-               "only what is not done, or was changed since: in its runs, its rule or the version");
-  app.add_option("--threads", options.threads, "how many, 0: all cores; verdicts do not depend on it")
+  app.add_flag("--force", options.force, "run every experiment again, even where results exist");
+  app.add_flag(
+      "--resume", options.resume,
+      "run only the experiments that are not done or that have changed since: their runs, their rule or the version");
+  app.add_option("--threads", options.threads, "number of threads; 0 means all cores; verdicts do not depend on it")
       ->type_name("N")
       ->transform(CLI::Validator([](std::string& text) { return whole_number(text, most_sweep_threads); }, "", ""));
-  app.add_flag("--json", options.json,
-               "print what verdicts.json says, of the experiments asked for alone, and nothing else");
-  app.add_flag("--quiet", options.quiet, "no progress, no notes");
-  app.add_flag("--list", options.list, "list the experiments: hamflow list experiments");
-  app.add_option("--show", options.shown, "describe one, with its claims in --out: hamflow show ID")->type_name("ID");
+  app.add_flag("--json", options.json, "print only JSON: the entries of verdicts.json for the experiments asked for");
+  app.add_flag("--quiet", options.quiet, "print neither progress nor notes");
+  app.add_flag("--list", options.list, "list the experiments; the same as hamflow list experiments");
+  app.add_option("--show", options.shown,
+                 "describe one experiment, with its claims in --out; the same as hamflow show ID")
+      ->type_name("ID");
 }
 
 }  // namespace
