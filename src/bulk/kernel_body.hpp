@@ -1,6 +1,8 @@
 // The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table.
 // Everything is of this file alone: an inline function of a library, compiled here, could be linked elsewhere.
-#include <immintrin.h>
+#ifdef __AVX2__
+#include <immintrin.h>  // without them registers of 16 bytes, by the vectors of the compiler alone
+#endif
 
 #include "kernel.hpp"
 

@@ -1,8 +1,7 @@
+#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/workflow/reverse.hpp"
 
 #include <fmt/format.h>
-#include <mpfr.h>
-
 #include <cmath>
 #include <functional>
 
@@ -110,15 +109,7 @@ const char* const below_the_digits =
 /// reverse.h5 has them; here stand the 33 that the arithmetic carries.
 std::vector<std::string> shown(std::vector<std::string> texts, const std::string& arithmetic) {
   if (arithmetic != "double-double") return texts;
-  mpfr_t x;
-  mpfr_init2(x, 320);
-  for (std::string& text : texts) {
-    char rounded[64];
-    mpfr_set_str(x, text.c_str(), 10, MPFR_RNDN);
-    mpfr_snprintf(rounded, sizeof rounded, "%.33Rg", x);
-    text = rounded;
-  }
-  mpfr_clear(x);
+  for (std::string& text : texts) text = rounded_decimal(text, 33);
   return texts;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/thread.hpp"
 
 namespace hamflow {
 
@@ -121,7 +122,7 @@ class ThreadTeam {
   alignas(64) std::atomic<std::size_t> done_{0};
   alignas(64) std::atomic<std::uint32_t> calls_{0};  // what the sleeping wait for
   std::atomic<bool> leaving_{false};
-  std::vector<std::jthread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace hamflow

@@ -5,14 +5,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "hamflow/arithmetic/number_types.hpp"
 #include "hamflow/core/number.hpp"
 
-struct dd_real;
-
 namespace hamflow {
-
-template <class T>
-class Extended;
 
 /// s points c = 1/2 + offset and weights b, exact for polynomials of degree 2 s - 1, ascending. Offsets and weights are
 /// symmetric bit for bit; c cannot be (1/2 + offset rounds), so what has to be symmetric is computed from the offsets.
@@ -64,7 +60,7 @@ GaussRule<R> make_gauss_rule(int s) {
 template <>
 GaussRule<Extended<dd_real>> make_gauss_rule<Extended<dd_real>>(int s);
 template <>
-GaussRule<Extended<__float128>> make_gauss_rule<Extended<__float128>>(int s);
+GaussRule<Extended<QuadNumber>> make_gauss_rule<Extended<QuadNumber>>(int s);
 template <class To, class From>
 GaussRule<To> rounded(const GaussRule<From>& rule) {
   GaussRule<To> out{rule.points, {}, {}, {}};
@@ -89,8 +85,8 @@ const GaussRule<R>& gauss_rule(int s) {
       std::vector<GaussRule<R>> all(1);
       for (int k = 1; k <= most_gauss_points; ++k) {
         if constexpr (std::is_same_v<R, double>) {
-          // The roundings are those of long double, not of double.
-          all.push_back(detail::rounded<double>(detail::make_gauss_rule<long double>(k)));
+          // The roundings are those of Wide, not of double.
+          all.push_back(detail::rounded<double>(detail::make_gauss_rule<Wide>(k)));
         } else {
           all.push_back(detail::make_gauss_rule<R>(k));
         }

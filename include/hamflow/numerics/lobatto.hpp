@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "hamflow/arithmetic/number_types.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/numerics/legendre.hpp"
 
@@ -97,12 +98,12 @@ const LobattoPair<R>& lobatto_pair(int stages) {
   const std::pair key{precision_in_use<R>(), stages};
   const auto found = pairs.find(key);
   if (found != pairs.end()) return found->second;
-  if constexpr (std::is_same_v<R, double>) {  // the roundings are those of long double
-    const auto fine = detail::made_lobatto_pair<long double>(stages);
+  if constexpr (std::is_same_v<R, double>) {  // the roundings are those of Wide
+    const auto fine = detail::made_lobatto_pair<Wide>(stages);
     LobattoPair<double> pair{stages, {}, {}, {}};
-    for (const long double x : fine.offset) pair.offset.push_back(static_cast<double>(x));
-    for (const long double x : fine.b) pair.b.push_back(static_cast<double>(x));
-    for (const long double x : fine.nu) pair.nu.push_back(static_cast<double>(x));
+    for (const Wide& x : fine.offset) pair.offset.push_back(static_cast<double>(x));
+    for (const Wide& x : fine.b) pair.b.push_back(static_cast<double>(x));
+    for (const Wide& x : fine.nu) pair.nu.push_back(static_cast<double>(x));
     return pairs.emplace(key, std::move(pair)).first->second;
   } else {
     return pairs.emplace(key, detail::made_lobatto_pair<R>(stages)).first->second;

@@ -168,7 +168,7 @@ AverageTable<To> rounded(const AverageTable<From>& t) {
 }
 
 /// Tables by number, made once each; their addresses stay.
-/// @param make(): the table, in long double for double, so that the roundings are those of long double
+/// @param make(): the table, in Wide for double, so that the roundings are those of Wide
 template <class R, class Make>
 const AverageTable<R>& kept_table(int averages, int points, const Make& make) {
   static std::mutex mutex;
@@ -178,7 +178,7 @@ const AverageTable<R>& kept_table(int averages, int points, const Make& make) {
   const auto found = tables.find(key);
   if (found != tables.end()) return found->second;
   if constexpr (std::is_same_v<R, double>) {
-    return tables.emplace(key, rounded<double>(make.template operator()<long double>())).first->second;
+    return tables.emplace(key, rounded<double>(make.template operator()<Wide>())).first->second;
   } else {
     return tables.emplace(key, make.template operator()<R>()).first->second;
   }

@@ -1,0 +1,17 @@
+// The instructions that every processor has: in place of src/bulk/instruction_sets.cpp and the kernels for AVX.
+#include "bulk/kernel.hpp"
+#include "hamflow/core/bulk_forces.hpp"
+#include "hamflow/run/ensemble.hpp"
+
+namespace hamflow {
+
+namespace bulk {
+const Kernels avx2{};
+const Kernels avx512{};
+}  // namespace bulk
+
+bool BulkForces::has(BulkSet set) { return set == BulkSet::sse2; }
+
+LaneSet widest_lanes() { return LaneSet::generic; }
+
+}  // namespace hamflow
