@@ -1,6 +1,5 @@
 // Which vector instructions this processor has. A portable build has src/portable/plain_instructions.cpp instead.
 #include "hamflow/core/bulk_forces.hpp"
-#include "hamflow/run/ensemble.hpp"
 
 namespace hamflow {
 
@@ -14,12 +13,6 @@ bool BulkForces::has(BulkSet set) {
     default:
       return true;
   }
-}
-
-LaneSet widest_lanes() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma")) return LaneSet::avx512;
-  if (__builtin_cpu_supports("avx2")) return LaneSet::avx2;
-  return LaneSet::generic;
 }
 
 }  // namespace hamflow

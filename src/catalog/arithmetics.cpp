@@ -34,7 +34,8 @@ int digits_beyond_double(const std::string& arithmetic) {
 void check_arithmetic(const std::string& arithmetic) {
   const std::vector<std::string>& names = arithmetics();
   if (!has_quad_and_mp && (arithmetic == "quad" || arithmetic.starts_with("mp"))) {
-    throw Error("found '" + arithmetic + "'; allowed " + joined(names) + "; a portable build has neither quad nor mp(d)");
+    throw Error("found '" + arithmetic + "'; allowed " + joined(names) +
+                "; a portable build has neither quad nor mp(d)");
   }
   if (mp_digits(arithmetic) > 0) return;
   if (arithmetic != "mp(d)" && std::find(names.begin(), names.end(), arithmetic) != names.end()) return;

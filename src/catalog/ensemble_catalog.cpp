@@ -6,6 +6,14 @@
 
 namespace hamflow {
 
+LaneSet widest_lanes() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma")) return LaneSet::avx512;
+  if (__builtin_cpu_supports("avx2")) return LaneSet::avx2;
+#endif
+  return LaneSet::generic;
+}
+
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
   const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
   if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;

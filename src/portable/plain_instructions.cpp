@@ -1,7 +1,6 @@
 // The instructions that every processor has: in place of src/bulk/instruction_sets.cpp and the kernels for AVX.
 #include "bulk/kernel.hpp"
 #include "hamflow/core/bulk_forces.hpp"
-#include "hamflow/run/ensemble.hpp"
 
 namespace hamflow {
 
@@ -11,7 +10,5 @@ const Kernels avx512{};
 }  // namespace bulk
 
 bool BulkForces::has(BulkSet set) { return set == BulkSet::sse2; }
-
-LaneSet widest_lanes() { return LaneSet::generic; }
 
 }  // namespace hamflow

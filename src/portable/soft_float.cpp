@@ -23,8 +23,8 @@ S holding(const typename BoostOf<S>::type& x) {
 }
 }  // namespace
 
-#define HAMFLOW_FROM(Given)                              \
-  HAMFLOW_SOFT                                           \
+#define HAMFLOW_FROM(Given)                               \
+  HAMFLOW_SOFT                                            \
   SoftFloat<binary, largest_exponent>::SoftFloat(Given x) \
       : SoftFloat(hamflow::holding<SoftFloat>(typename BoostOf<SoftFloat>::type(x))) {}
 HAMFLOW_FROM(double)
@@ -33,32 +33,37 @@ HAMFLOW_FROM(long long)
 HAMFLOW_FROM(unsigned long long)
 HAMFLOW_FROM(const std::string&)
 #undef HAMFLOW_FROM
-HAMFLOW_SOFT SoftFloat<binary, largest_exponent>::operator double() const { return static_cast<double>(hamflow::held(*this)); }
-HAMFLOW_SOFT SoftFloat<binary, largest_exponent>::operator long double() const { return static_cast<long double>(hamflow::held(*this)); }
+HAMFLOW_SOFT SoftFloat<binary, largest_exponent>::operator double() const {
+  return static_cast<double>(hamflow::held(*this));
+}
+HAMFLOW_SOFT SoftFloat<binary, largest_exponent>::operator long double() const {
+  return static_cast<long double>(hamflow::held(*this));
+}
 HAMFLOW_SOFT SoftFloat<binary, largest_exponent> SoftFloat<binary, largest_exponent>::operator-() const {
   return hamflow::holding<SoftFloat>(-hamflow::held(*this));
 }
-#define HAMFLOW_OPERATOR(sign)                                                                                         \
-  HAMFLOW_SOFT SoftFloat<binary, largest_exponent> SoftFloat<binary, largest_exponent>::operator sign(const SoftFloat& b) const { \
-    return hamflow::holding<SoftFloat>(hamflow::held(*this) sign hamflow::held(b));                                                    \
+#define HAMFLOW_OPERATOR(sign)                                                                         \
+  HAMFLOW_SOFT SoftFloat<binary, largest_exponent> SoftFloat<binary, largest_exponent>::operator sign( \
+      const SoftFloat& b) const {                                                                      \
+    return hamflow::holding<SoftFloat>(hamflow::held(*this) sign hamflow::held(b));                    \
   }
 HAMFLOW_OPERATOR(+)
 HAMFLOW_OPERATOR(-)
 HAMFLOW_OPERATOR(*)
 HAMFLOW_OPERATOR(/)
 #undef HAMFLOW_OPERATOR
-#define HAMFLOW_OPERATOR(sign)                                                                    \
+#define HAMFLOW_OPERATOR(sign)                                                                     \
   HAMFLOW_SOFT bool SoftFloat<binary, largest_exponent>::operator sign(const SoftFloat& b) const { \
-    return hamflow::held(*this) sign hamflow::held(b);                                                              \
+    return hamflow::held(*this) sign hamflow::held(b);                                             \
   }
 HAMFLOW_OPERATOR(==)
 HAMFLOW_OPERATOR(<)
 HAMFLOW_OPERATOR(<=)
 #undef HAMFLOW_OPERATOR
 
-#define HAMFLOW_FUNCTION(name)                                                                      \
-  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x) -> T {    \
-    return holding<T>(boost::multiprecision::name(held(x)));                                        \
+#define HAMFLOW_FUNCTION(name)                                                                 \
+  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x)->T { \
+    return holding<T>(boost::multiprecision::name(held(x)));                                   \
   }
 HAMFLOW_FUNCTION(abs)
 HAMFLOW_FUNCTION(exp)
@@ -73,9 +78,9 @@ HAMFLOW_FUNCTION(sinh)
 HAMFLOW_FUNCTION(cosh)
 HAMFLOW_FUNCTION(tanh)
 #undef HAMFLOW_FUNCTION
-#define HAMFLOW_FUNCTION(name)                                                                                \
-  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x, const T& y) -> T {  \
-    return holding<T>(boost::multiprecision::name(held(x), held(y)));                                         \
+#define HAMFLOW_FUNCTION(name)                                                                             \
+  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x, const T& y)->T { \
+    return holding<T>(boost::multiprecision::name(held(x), held(y)));                                      \
   }
 HAMFLOW_FUNCTION(atan2)
 HAMFLOW_FUNCTION(pow)
@@ -86,10 +91,10 @@ HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::sqrt(cons
 HAMFLOW_SOFT std::string ExtendedTraits<SoftFloat<binary, largest_exponent>>::written(const T& x) {
   return held(x).str(std::numeric_limits<typename BoostOf<T>::type>::max_digits10, std::ios_base::fmtflags(0));
 }
-#define HAMFLOW_VALUE(name, value)                                                        \
-  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name() -> T {    \
-    using Number = typename BoostOf<T>::type;                                             \
-    return holding<T>(value);                                                             \
+#define HAMFLOW_VALUE(name, value)                                                   \
+  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name()->T { \
+    using Number = typename BoostOf<T>::type;                                        \
+    return holding<T>(value);                                                        \
   }
 HAMFLOW_VALUE(pi, boost::math::constants::pi<Number>())
 HAMFLOW_VALUE(epsilon, std::numeric_limits<Number>::epsilon())

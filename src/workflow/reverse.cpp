@@ -1,10 +1,11 @@
-#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/workflow/reverse.hpp"
 
 #include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 
+#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"

@@ -750,7 +750,7 @@ void add_runs(std::vector<Case>& cases) {
       std::erase(one.name, ' ');
       one.request = text + joined(sets, "\n") + "\n";
       one.numbers = [=] { return numbers_of_run(text, sets); };
-      if (each.has_threads && takes_threads(sets)) {
+      if (each.has_threads && has_threads && takes_threads(sets)) {
         for (const char* threads : {"2", "3"}) {
           std::vector<std::string> more = sets;
           more.push_back(std::string("run.threads=") + threads);
@@ -824,6 +824,11 @@ std::vector<Case> all_cases() {
   add_walls(cases);
   add_runs(cases);
   add_sweeps(cases);
+  for (Case& one : cases) {
+    one.is_beyond_portable =
+        one.name.ends_with("/quad") || one.name.ends_with("/mp(40)") || one.name.find("'quad'") != std::string::npos;
+  }
+  if (!has_quad_and_mp) std::erase_if(cases, [](const Case& one) { return one.is_beyond_portable; });
   std::set<std::string> names;
   for (const Case& one : cases) {
     if (one.name.find(' ') != std::string::npos || !names.insert(one.name).second) {

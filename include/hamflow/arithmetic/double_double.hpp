@@ -3,18 +3,13 @@
 // energies and invariants do when they are compared.
 #pragma once
 
-#ifdef HAMFLOW_PORTABLE
-#include "hamflow/arithmetic/two_doubles.hpp"
-#else
-#include <qd/dd_real.h>
-#endif
-
 #include <algorithm>
 #include <cmath>
 
 #include "hamflow/arithmetic/extended.hpp"
-#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/arithmetic/number_types.hpp"
+#include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/arithmetic/two_doubles.hpp"
 
 namespace hamflow {
 

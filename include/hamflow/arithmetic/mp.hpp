@@ -5,19 +5,10 @@
 #pragma once
 
 #include "hamflow/arithmetic/extended.hpp"
+#include "hamflow/arithmetic/mp_number.hpp"
 #include "hamflow/core/archive.hpp"
-#ifdef HAMFLOW_PORTABLE
-#include "hamflow/arithmetic/soft_float.hpp"
-#else
-#include "hamflow/arithmetic/mpfr_number.hpp"
-#endif
 
 namespace hamflow {
-
-#ifdef HAMFLOW_PORTABLE
-/// Of 126 decimal digits, whatever MpDigits says: what is computed with the digits of texts, but no run.
-using MpNumber = SoftFloat<420, 1 << 28>;
-#endif
 
 /// The decimal digits of numbers made in this thread, until the scope ends.
 class MpDigits {

@@ -1,5 +1,5 @@
-// What stands behind the number types with more digits than double: a library or a type of the machine, or, in a portable
-// build, software (two_doubles.hpp, soft_float.hpp). Only their names: without the libraries' headers.
+// What stands behind the number types with more digits than double: a library or a type of the machine, or, in a
+// portable build, software (two_doubles.hpp, soft_float.hpp). Only their names: without the libraries' headers.
 #pragma once
 
 #include <limits>
@@ -15,8 +15,8 @@ namespace hamflow {
 template <class T>
 class Extended;
 
-/// `Wide` has 64 binary digits: coefficients of steps in double are computed in it and rounded. That is the long double of
-/// x86; other machines have other ones, with which coefficients would be rounded otherwise.
+/// `Wide` has 64 binary digits: coefficients of steps in double are computed in it and rounded. That is the long double
+/// of x86; other machines have other ones, with which coefficients would be rounded otherwise.
 #ifdef HAMFLOW_PORTABLE
 using Wide = Extended<SoftFloat<64, 16383>>;
 using QuadNumber = SoftFloat<113, 16383>;

@@ -1,4 +1,5 @@
-// Quadruple precision, IEEE binary128, about 34 digits, by the compiler and libquadmath; in a portable build in software.
+// Quadruple precision, IEEE binary128, about 34 digits, by the compiler and libquadmath; in a portable build in
+// software.
 #pragma once
 
 #include "hamflow/arithmetic/extended.hpp"

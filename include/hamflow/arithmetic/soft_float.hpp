@@ -42,7 +42,7 @@ class SoftFloat {
  private:
   struct Nothing {};
   explicit SoftFloat(Nothing) {}
-  alignas(16) std::byte bytes_[static_cast<std::size_t>(binary + 63) / 64 * 8 + 40];
+  std::byte bytes_[static_cast<std::size_t>(binary + 63) / 64 * 8 + 40];
 };
 
 template <int binary, int largest_exponent>
@@ -51,15 +51,21 @@ struct ExtendedTraits<SoftFloat<binary, largest_exponent>> {
   static constexpr int digits = binary;
   template <class U>
   static T made(U x) {
-    if constexpr (std::is_same_v<U, long double>) return T(x);
-    else if constexpr (std::is_floating_point_v<U>) return T(static_cast<double>(x));
-    else if constexpr (std::is_signed_v<U>) return T(static_cast<long long>(x));
-    else return T(static_cast<unsigned long long>(x));
+    if constexpr (std::is_same_v<U, long double>)
+      return T(x);
+    else if constexpr (std::is_floating_point_v<U>)
+      return T(static_cast<double>(x));
+    else if constexpr (std::is_signed_v<U>)
+      return T(static_cast<long long>(x));
+    else
+      return T(static_cast<unsigned long long>(x));
   }
   template <class U>
   static U as(const T& x) {
-    if constexpr (std::is_same_v<U, double>) return static_cast<double>(x);
-    else return static_cast<U>(static_cast<long double>(x));
+    if constexpr (std::is_same_v<U, double>)
+      return static_cast<double>(x);
+    else
+      return static_cast<U>(static_cast<long double>(x));
   }
   static T add(const T& a, const T& b) { return a + b; }
   static T subtract(const T& a, const T& b) { return a - b; }

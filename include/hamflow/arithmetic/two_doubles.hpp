@@ -1,8 +1,11 @@
-// The numbers behind double-double where the QD library is not to be had (HAMFLOW_PORTABLE): the same name and functions,
-// and the same bits of sums, products, quotients and square roots. Elementary functions are computed with 113 digits and
-// rounded: they may differ from those of QD in the last digit.   [HidaLiBailey2001, Dekker1971]
+// The numbers behind double-double: those of the QD library or, in a portable build, the same bits of sums, products,
+// quotients and square roots without it. Elementary functions are then computed with 113 digits and rounded, and may
+// differ from those of QD in the last digit.   [HidaLiBailey2001, Dekker1971]
 #pragma once
 
+#ifndef HAMFLOW_PORTABLE
+#include <qd/dd_real.h>
+#else
 #include <cmath>
 
 /// x[0] + x[1], where x[0] is the sum rounded to double.
@@ -114,3 +117,4 @@ dd_real cosh(const dd_real& x);
 dd_real tanh(const dd_real& x);
 dd_real atan2(const dd_real& y, const dd_real& x);
 dd_real pow(const dd_real& x, const dd_real& y);
+#endif

@@ -9,6 +9,7 @@
 namespace hamflow {
 
 #ifdef HAMFLOW_PORTABLE
+inline constexpr bool has_threads = false;
 class Thread {
  public:
   /// @throws std::system_error
@@ -19,6 +20,7 @@ class Thread {
 };
 inline unsigned processors() { return 1; }
 #else
+inline constexpr bool has_threads = true;
 using Thread = std::jthread;
 inline unsigned processors() { return std::thread::hardware_concurrency(); }
 #endif

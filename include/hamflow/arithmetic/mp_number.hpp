@@ -1,11 +1,21 @@
-// The number of Mp by MPFR.
+// The numbers behind Mp: MPFR's or, in a portable build, numbers of one length.
 #pragma once
 
+#include "hamflow/arithmetic/extended.hpp"
+
+#ifdef HAMFLOW_PORTABLE
+#include "hamflow/arithmetic/soft_float.hpp"
+
+namespace hamflow {
+
+/// Of 126 decimal digits, whatever MpDigits says: what is computed with the digits of texts, but no run.
+using MpNumber = SoftFloat<420, 1 << 28>;
+
+}  // namespace hamflow
+#else
 #include <mpfr.h>
 
 #include <utility>
-
-#include "hamflow/arithmetic/extended.hpp"
 
 namespace hamflow {
 
@@ -98,3 +108,4 @@ inline double ExtendedTraits<MpNumber>::as<double>(const MpNumber& x) noexcept {
 }
 
 }  // namespace hamflow
+#endif
