@@ -13,6 +13,17 @@ HAMFLOW_SOFT
 struct BoostOf<SoftFloat<binary, largest_exponent>> {
   using type = BoostFloat<binary, largest_exponent>;
 };
+/// Functions, sums and differences are computed with 81 binary digits more and rounded.
+template <class S>
+struct FinerOf;
+HAMFLOW_SOFT
+struct FinerOf<SoftFloat<binary, largest_exponent>> {
+  using type = BoostFloat<binary + 81, largest_exponent>;
+};
+template <class S>
+auto finer(const S& x) {
+  return typename FinerOf<S>::type(x.template held<typename BoostOf<S>::type>());
+}
 template <class S>
 auto held(const S& x) {
   return x.template held<typename BoostOf<S>::type>();
@@ -47,10 +58,17 @@ HAMFLOW_SOFT SoftFloat<binary, largest_exponent> SoftFloat<binary, largest_expon
       const SoftFloat& b) const {                                                                      \
     return hamflow::holding<SoftFloat>(hamflow::held(*this) sign hamflow::held(b));                    \
   }
-HAMFLOW_OPERATOR(+)
-HAMFLOW_OPERATOR(-)
 HAMFLOW_OPERATOR(*)
 HAMFLOW_OPERATOR(/)
+#undef HAMFLOW_OPERATOR
+// Boost takes a unit off a difference even where the second number is below half of that.
+#define HAMFLOW_OPERATOR(sign)                                                                         \
+  HAMFLOW_SOFT SoftFloat<binary, largest_exponent> SoftFloat<binary, largest_exponent>::operator sign( \
+      const SoftFloat& b) const {                                                                      \
+    return hamflow::holding<SoftFloat>(typename BoostOf<SoftFloat>::type(finer(*this) sign finer(b))); \
+  }
+HAMFLOW_OPERATOR(+)
+HAMFLOW_OPERATOR(-)
 #undef HAMFLOW_OPERATOR
 #define HAMFLOW_OPERATOR(sign)                                                                     \
   HAMFLOW_SOFT bool SoftFloat<binary, largest_exponent>::operator sign(const SoftFloat& b) const { \
@@ -63,9 +81,8 @@ HAMFLOW_OPERATOR(<=)
 
 #define HAMFLOW_FUNCTION(name)                                                                 \
   HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x)->T { \
-    return holding<T>(boost::multiprecision::name(held(x)));                                   \
+    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(finer(x))));       \
   }
-HAMFLOW_FUNCTION(abs)
 HAMFLOW_FUNCTION(exp)
 HAMFLOW_FUNCTION(log)
 HAMFLOW_FUNCTION(sin)
@@ -80,11 +97,14 @@ HAMFLOW_FUNCTION(tanh)
 #undef HAMFLOW_FUNCTION
 #define HAMFLOW_FUNCTION(name)                                                                             \
   HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x, const T& y)->T { \
-    return holding<T>(boost::multiprecision::name(held(x), held(y)));                                      \
+    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(finer(x), finer(y))));         \
   }
 HAMFLOW_FUNCTION(atan2)
 HAMFLOW_FUNCTION(pow)
 #undef HAMFLOW_FUNCTION
+HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::abs(const T& x) -> T {
+  return holding<T>(boost::multiprecision::abs(held(x)));
+}
 HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::sqrt(const T& x) -> T {
   return x < T() ? nan() : holding<T>(boost::multiprecision::sqrt(held(x)));
 }

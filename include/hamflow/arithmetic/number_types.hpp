@@ -21,6 +21,10 @@ class Extended;
 using Wide = Extended<SoftFloat<64, 16383>>;
 using QuadNumber = SoftFloat<113, 16383>;
 inline constexpr bool has_quad_and_mp = false;
+template <>
+inline Wide parse_decimal<Wide>(std::string_view text) {
+  return Wide(ExtendedTraits<SoftFloat<64, 16383>>::read(text));
+}
 #else
 using Wide = long double;
 using QuadNumber = __float128;
