@@ -15,7 +15,7 @@ if(NOT HAMFLOW_PORTABLE)
   return()
 endif()
 
-set(HAMFLOW_LIBRARIES Boost::headers)
+set(HAMFLOW_LIBRARIES)
 set(HDF5_C_INCLUDE_DIRS "${PROJECT_SOURCE_DIR}/src/portable/hdf5")
 set(HDF5_C_LIBRARIES)
 list(APPEND HAMFLOW_LEFT_OUT

@@ -750,7 +750,7 @@ void add_runs(std::vector<Case>& cases) {
       std::erase(one.name, ' ');
       one.request = text + joined(sets, "\n") + "\n";
       one.numbers = [=] { return numbers_of_run(text, sets); };
-      if (each.has_threads && has_threads && takes_threads(sets)) {
+      if (each.has_threads && takes_threads(sets)) {
         for (const char* threads : {"2", "3"}) {
           std::vector<std::string> more = sets;
           more.push_back(std::string("run.threads=") + threads);

@@ -19,11 +19,13 @@ namespace hamflow {
 class ThreadTeam {
  public:
   /// @param size the number of workers, the caller of share() included
+  /// Without threads (a portable build) the caller does all the work.
   /// @throws Error when the system starts no more threads
   explicit ThreadTeam(std::size_t size) : size_(size) {
     threads_.reserve(size);
     try {
-      for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
+      for (std::size_t worker = 1; has_threads && worker < size; ++worker)
+        threads_.emplace_back([this, worker] { serve(worker); });
     } catch (const std::system_error& error) {
       const std::size_t started = threads_.size();
       dismiss();  // those that were started sleep, and would be waited for in vain
