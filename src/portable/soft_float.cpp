@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "boost_float.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
@@ -109,7 +111,8 @@ HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::sqrt(cons
   return x < T() ? nan() : holding<T>(boost::multiprecision::sqrt(held(x)));
 }
 HAMFLOW_SOFT std::string ExtendedTraits<SoftFloat<binary, largest_exponent>>::written(const T& x) {
-  return held(x).str(std::numeric_limits<typename BoostOf<T>::type>::max_digits10, std::ios_base::fmtflags(0));
+  static const int places = static_cast<int>(std::ceil(1 + binary * std::log10(2.0)));
+  return held(x).str(places, std::ios_base::fmtflags(0));
 }
 #define HAMFLOW_VALUE(name, value)                                                   \
   HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name()->T { \
