@@ -7,6 +7,7 @@ option(HAMFLOW_PORTABLE "without AsmJit, QD, MPFR, libquadmath, HDF5, threads an
 set(HAMFLOW_LEFT_OUT)  # of the lists of files
 if(NOT HAMFLOW_PORTABLE)
   find_package(fmt REQUIRED)
+  find_package(tomlplusplus REQUIRED)
   find_package(HDF5 REQUIRED COMPONENTS C)
   find_package(Threads REQUIRED)
   find_package(asmjit REQUIRED)  # in src/native only
@@ -25,7 +26,11 @@ list(APPEND HAMFLOW_LEFT_OUT
   src/bulk/kernel_avx2.cpp
   src/bulk/kernel_avx512.cpp
   src/catalog/erased_simulation_mp.cpp)
-# fmt's headers alone: its library is one of the machine on which is built.
+# The headers alone of fmt and toml++: Debian's libraries of them are for the machine on which is built.
 find_path(FMT_HEADERS fmt/format.h REQUIRED)
+find_path(TOML_HEADERS toml++/toml.h REQUIRED)
+mark_as_advanced(FMT_HEADERS TOML_HEADERS)
 add_library(fmt::fmt INTERFACE IMPORTED)
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+add_library(tomlplusplus::tomlplusplus INTERFACE IMPORTED)
+target_compile_definitions(tomlplusplus::tomlplusplus INTERFACE TOML_HEADER_ONLY=1)
