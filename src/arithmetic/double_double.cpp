@@ -36,4 +36,12 @@ dd_real read_wide(std::string_view text) {
   return {high, mpfr_get_d(x.value, MPFR_RNDN)};
 }
 
+std::string rounded_decimal(const std::string& text, int digits) {
+  Number x(read_bits);
+  mpfr_set_str(x.value, text.c_str(), 10, MPFR_RNDN);
+  char rounded[wide_digits + 32];
+  const int length = mpfr_snprintf(rounded, sizeof rounded, "%.*Rg", digits, x.value);
+  return {rounded, static_cast<std::size_t>(length)};
+}
+
 }  // namespace hamflow

@@ -10,9 +10,9 @@ namespace {
 /// 2^largest_exponent is some 10^(10^6).
 constexpr mpfr_exp_t largest_exponent = 3321928;
 /// 0: not set yet.
-thread_local mpfr_prec_t bits_in_use = 0;
+thread_local long bits_in_use = 0;
 
-mpfr_prec_t bits_for(int digits) { return static_cast<mpfr_prec_t>(std::ceil(digits * std::log2(10.0))) + 1; }
+long bits_for(int digits) { return static_cast<long>(std::ceil(digits * std::log2(10.0))) + 1; }
 
 template <class Operation>
 MpNumber made_by(Operation operation) {
@@ -34,7 +34,7 @@ MpDigits::MpDigits(int digits) : before_(bits_in_use) {
   bits_in_use = bits_for(digits);
 }
 MpDigits::~MpDigits() { bits_in_use = before_; }
-mpfr_prec_t MpDigits::bits() { return bits_in_use == 0 ? bits_for(50) : bits_in_use; }
+long MpDigits::bits() { return bits_in_use == 0 ? bits_for(50) : bits_in_use; }
 
 MpNumber::MpNumber() noexcept {
   mpfr_init2(number_, MpDigits::bits());
@@ -142,7 +142,7 @@ double binary_logarithm(const Mp& x) {
   const double mantissa = mpfr_get_d_2exp(&exponent, x.value.raw(), MPFR_RNDN);
   return std::log2(std::fabs(mantissa)) + static_cast<double>(exponent);
 }
-std::size_t decimal_places(mpfr_prec_t bits) {
+std::size_t decimal_places(long bits) {
   return static_cast<std::size_t>(std::ceil(1 + static_cast<double>(bits) * std::log10(2.0)));
 }
 std::string Traits::written(const T& x) {
@@ -169,6 +169,15 @@ MpNumber Traits::infinity() noexcept {
 }
 MpNumber Traits::nan() noexcept {
   return made_by([](mpfr_ptr x) { mpfr_set_nan(x); });
+}
+
+std::string scientific_text(const Mp& x, int places) {
+  char* text = nullptr;
+  const int length = mpfr_asprintf(&text, "%.*Re", places, x.value.raw());
+  if (length < 0) throw std::bad_alloc();
+  std::string out(text, static_cast<std::size_t>(length));
+  mpfr_free_str(text);
+  return out;
 }
 
 std::string exact_text(const Mp& x) {

@@ -113,18 +113,6 @@ Scaled scaled(const BulkPairSystem& s) {
 
 const bulk::Kernels& bulk::widest() { return kernels_of(chosen(BulkSet::best)); }
 
-bool BulkForces::has(BulkSet set) {
-  switch (set) {
-    case BulkSet::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-             __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
-    case BulkSet::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    default:
-      return true;
-  }
-}
-
 class BulkForces::Workspace {
  public:
   Workspace(const BulkPairSystem& system, BulkSet set)

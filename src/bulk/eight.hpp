@@ -76,7 +76,7 @@ HAMFLOW_INLINE Group<N> root(const Group<N>& a) {
 #elif HAMFLOW_NATIVE_BYTES == 32
   HAMFLOW_EACH r.v[n] = (Native)_mm256_sqrt_pd((__m256d)a.v[n]);
 #else
-  HAMFLOW_EACH r.v[n] = (Native)_mm_sqrt_pd((__m128d)a.v[n]);
+  HAMFLOW_EACH r.v[n] = Native{__builtin_sqrt(a.v[n][0]), __builtin_sqrt(a.v[n][1])};
 #endif
   return r;
 }
@@ -89,7 +89,7 @@ HAMFLOW_INLINE Group<N> not_below_zero(const Group<N>& x) {
 #elif HAMFLOW_NATIVE_BYTES == 32
   HAMFLOW_EACH r.v[n] = (Native)_mm256_max_pd(_mm256_setzero_pd(), (__m256d)x.v[n]);
 #else
-  HAMFLOW_EACH r.v[n] = (Native)_mm_max_pd(_mm_setzero_pd(), (__m128d)x.v[n]);
+  HAMFLOW_EACH r.v[n] = (Native)((NativeBits)x.v[n] & ~(x.v[n] < Native{}));
 #endif
   return r;
 }
@@ -111,7 +111,7 @@ HAMFLOW_INLINE unsigned below(const Eight& x, const Eight& limit) {
             << (n * lanes);
 #else
   for (int n = 0; n < natives; ++n)
-    bits |= (unsigned)_mm_movemask_pd(_mm_cmpnge_pd((__m128d)x.v[n], (__m128d)limit.v[n])) << (n * lanes);
+    for (int k = 0; k < lanes; ++k) bits |= (unsigned)!(x.v[n][k] >= limit.v[n][k]) << (n * lanes + k);
 #endif
   return bits;
 #endif
@@ -284,14 +284,12 @@ HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eig
   }
 #else
   for (int n = 0; n < natives; ++n) {
-    const __m128d a = _mm_load_pd(row(2 * n));
-    const __m128d a2 = _mm_load_pd(row(2 * n) + 2);
-    const __m128d b = _mm_load_pd(row(2 * n + 1));
-    const __m128d b2 = _mm_load_pd(row(2 * n + 1) + 2);
-    x.v[n] = (Native)_mm_unpacklo_pd(a, b);
-    y.v[n] = (Native)_mm_unpackhi_pd(a, b);
-    z.v[n] = (Native)_mm_unpacklo_pd(a2, b2);
-    w.v[n] = (Native)_mm_unpackhi_pd(a2, b2);
+    const double* const a = row(2 * n);
+    const double* const b = row(2 * n + 1);
+    x.v[n] = Native{a[0], b[0]};
+    y.v[n] = Native{a[1], b[1]};
+    z.v[n] = Native{a[2], b[2]};
+    w.v[n] = Native{a[3], b[3]};
   }
 #endif
 }

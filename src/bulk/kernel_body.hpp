@@ -1,6 +1,8 @@
 // The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table. Everything is local to
 // this file, because an inline function of a library that is compiled here could be linked into other code.
-#include <immintrin.h>
+#ifdef __AVX2__
+#include <immintrin.h>  // without AVX2 the kernels use registers of 16 bytes, by the compiler's vectors alone
+#endif
 
 #include "kernel.hpp"
 

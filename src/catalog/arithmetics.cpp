@@ -7,6 +7,13 @@
 
 namespace hamflow {
 
+const std::vector<std::string>& arithmetics() {
+  static const std::vector<std::string> names =
+      has_quad_and_mp ? std::vector<std::string>{"double", "compensated", "double-double", "quad", "mp(d)", "lattice"}
+                      : std::vector<std::string>{"double", "compensated", "double-double", "lattice"};
+  return names;
+}
+
 int mp_digits(const std::string& arithmetic) {
   if (!arithmetic.starts_with("mp(") || !arithmetic.ends_with(")")) return 0;
   const std::string inside = arithmetic.substr(3, arithmetic.size() - 4);
@@ -25,12 +32,16 @@ int digits_beyond_double(const std::string& arithmetic) {
 }
 
 void check_arithmetic(const std::string& arithmetic) {
-  if (mp_digits(arithmetic) > 0) return;
   const std::vector<std::string>& names = arithmetics();
+  if (!has_quad_and_mp && (arithmetic == "quad" || arithmetic.starts_with("mp"))) {
+    throw Error("found '" + arithmetic + "'; allowed " + joined(names) +
+                "; a portable build has neither quad nor mp(d)");
+  }
+  if (mp_digits(arithmetic) > 0) return;
   if (arithmetic != "mp(d)" && std::find(names.begin(), names.end(), arithmetic) != names.end()) return;
   const std::string digits = arithmetic.starts_with("mp") ? arithmetic.substr(2) : "";
   const bool bare = !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;  // mp50
-  throw Error("found '" + arithmetic + "'; allowed " + joined(names) + ", e.g. mp(50)" +
+  throw Error("found '" + arithmetic + "'; allowed " + joined(names) + (has_quad_and_mp ? ", e.g. mp(50)" : "") +
               (bare ? "; did you mean mp(" + digits + ")?" : suggestion(arithmetic, names)));
 }
 

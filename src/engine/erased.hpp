@@ -10,6 +10,7 @@
 #include "hamflow/detail/run/any_problem.hpp"
 #include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "mp_simulation.hpp"
 
 namespace hamflow {
 
@@ -96,12 +97,24 @@ struct ErasedEntry {
 /// action.template operator()<R>() with the number type of an arithmetic beyond double.
 template <class Action>
 auto in_arithmetic(const std::string& arithmetic, const Action& action) {
-  if (arithmetic == "double-double") return action.template operator()<DoubleDouble>();
-  if (arithmetic == "quad") return action.template operator()<Quad>();
+  if constexpr (has_quad_and_mp) {
+    if (arithmetic == "quad") return action.template operator()<Quad>();
+    if (const int digits = mp_digits(arithmetic); digits > 0) {
+      const MpDigits scope(digits);
+      return action.template operator()<Mp>();
+    }
+  }
+  if (arithmetic != "double-double") throw Error("found '" + arithmetic + "'; allowed more digits than double has");
+  return action.template operator()<DoubleDouble>();
+}
+
+/// The simulation that action.template operator()<R>() makes in the number type of any arithmetic.
+template <class Action>
+std::unique_ptr<Simulation> simulated_in(const std::string& arithmetic, const Action& action) {
+  if (digits_beyond_double(arithmetic) == 0) return action.template operator()<double>();
+  auto simulation = in_arithmetic(arithmetic, action);
   const int digits = mp_digits(arithmetic);
-  if (digits == 0) throw Error("found '" + arithmetic + "'; allowed double-double, quad, mp(d)");
-  const MpDigits scope(digits);
-  return action.template operator()<Mp>();
+  return digits > 0 ? with_digits(digits, std::move(simulation)) : std::move(simulation);
 }
 
 }  // namespace hamflow

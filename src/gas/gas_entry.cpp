@@ -386,13 +386,7 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   e.accepts = [shape](const MethodSpec& method) { return accepts(shape, method); };
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
   e.simulate_erased = [shape](const Request& request) -> std::unique_ptr<Simulation> {
-    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(shape, request);
-    if (request.arithmetic == "quad") return simulate_in<Quad>(shape, request);
-    if (const int digits = mp_digits(request.arithmetic); digits > 0) {
-      const MpDigits scope(digits);
-      return with_digits(digits, simulate_in<Mp>(shape, request));
-    }
-    return simulate_in<double>(shape, request);
+    return simulated_in(request.arithmetic, [&]<class R>() { return simulate_in<R>(shape, request); });
   };
   e.simulate_member = [shape](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {

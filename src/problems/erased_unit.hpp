@@ -43,13 +43,7 @@ class ErasedUnit : ProblemStart<Family> {
 
  private:
   static std::unique_ptr<Simulation> simulate(const Request& request) {
-    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(request);
-    if (request.arithmetic == "quad") return simulate_in<Quad>(request);
-    if (const int digits = mp_digits(request.arithmetic); digits > 0) {
-      const MpDigits scope(digits);
-      return with_digits(digits, simulate_in<Mp>(request));
-    }
-    return simulate_in<double>(request);
+    return simulated_in(request.arithmetic, [&]<class R>() { return simulate_in<R>(request); });
   }
 
   template <class R>

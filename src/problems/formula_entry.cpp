@@ -261,13 +261,7 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.accepts = [model](const MethodSpec& method) { return accepts(model.structure(), method); };
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
   e.simulate_erased = [typed](const Request& request) -> std::unique_ptr<Simulation> {
-    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(typed, request);
-    if (request.arithmetic == "quad") return simulate_in<Quad>(typed, request);
-    if (const int digits = mp_digits(request.arithmetic); digits > 0) {
-      const MpDigits scope(digits);
-      return with_digits(digits, simulate_in<Mp>(typed, request));
-    }
-    return simulate_in<double>(typed, request);
+    return simulated_in(request.arithmetic, [&]<class R>() { return simulate_in<R>(typed, request); });
   };
   e.simulate_member = [model](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {

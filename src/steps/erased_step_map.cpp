@@ -59,7 +59,7 @@ auto steps_in_quad(const ErasedFunctions<Quad>& functions, const MethodSpec& met
     if (simulation->advance(steps) != Outcome::done) return false;
     const std::vector<std::byte> bits = simulation->bits();
     const std::size_t stride = bits.size() / z.size();
-    for (std::size_t i = 0; i < z.size(); ++i) std::memcpy(&z[i], &bits[i * stride], sizeof(Quad));
+    for (std::size_t i = 0; i < z.size(); ++i) Reader(std::span(bits).subspan(i * stride))(z[i]);
     return true;
   };
 }

@@ -4,8 +4,9 @@
 #include <exception>
 #include <mutex>
 #include <system_error>
-#include <thread>
 #include <vector>
+
+#include "hamflow/detail/core/thread.hpp"
 
 namespace hamflow {
 
@@ -25,7 +26,7 @@ int on_threads(int threads, const Work& work) {
   };
   int started = 1;
   {
-    std::vector<std::jthread> others;
+    std::vector<Thread> others;
     try {
       for (; started < threads; ++started) others.emplace_back(guarded);
     } catch (const std::system_error&) {  // NOLINT: told by the number

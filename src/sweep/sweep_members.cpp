@@ -38,7 +38,7 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   starts_.resize(rows_.size());
   steps_.resize(rows_.size());
   names_ = SweepNames(rows_.size());
-  threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
+  threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(processors());
   threads_ = std::max(threads_, 1);
   read_members(name);
   common_.settings = reader.family().settings();

@@ -1,9 +1,7 @@
 #include "hamflow/verify/long_number.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "hamflow/arithmetic/mp.hpp"
@@ -24,9 +22,7 @@ LongNumber shown(const Mp& x) {
   LongNumber number(static_cast<double>(x));
   const bool fits = std::abs(number.value) >= std::numeric_limits<double>::min() && std::isfinite(number.value);
   if (fits || x == Mp(0)) return number;
-  std::array<char, 64> text{};
-  mpfr_snprintf(text.data(), text.size(), "%.15Re", x.value.raw());
-  number.text = text.data();
+  number.text = scientific_text(x, 15);
   return number;
 }
 

@@ -8,10 +8,10 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/detail/core/thread.hpp"
 #include "measuring_stopped.hpp"
 
 namespace hamflow {
@@ -81,15 +81,21 @@ class Verification::Impl {
       }
     }
     measured_.resize(jobs_.size());
-    at_work_ = std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), jobs_.size());
-    const std::size_t all = at_work_;
-    for (std::size_t k = 0; k < all; ++k) helpers_.emplace_back([this] { work(); });
+    const std::size_t most = std::min<std::size_t>(std::max(1u, processors()), jobs_.size());
+    at_work_ = most;
+    try {
+      while (helpers_.size() < most) helpers_.emplace_back([this] { work([this] { return !stopped_; }); });
+    } catch (const std::system_error&) {  // those that were started do the work, or wait() does
+      const std::lock_guard lock(mutex_);
+      at_work_ -= most - helpers_.size();
+    }
   }
   ~Impl() { stopped_ = true; }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   bool wait(const std::function<bool()>& goes_on) {
+    if (helpers_.empty()) work([&] { return !stopped_ && !(stopped_ = !goes_on()); });
     std::unique_lock lock(mutex_);
     while (at_work_ > 0) {
       finished_.wait_for(lock, std::chrono::milliseconds(20));
@@ -99,7 +105,7 @@ class Verification::Impl {
       if (!go_on && at_work_ > 0) return false;
     }
     if (failure_) std::rethrow_exception(failure_);
-    return true;
+    return !stopped_;
   }
   std::vector<PropertyRow> rows() {
     const std::lock_guard lock(mutex_);
@@ -111,11 +117,10 @@ class Verification::Impl {
   }
 
  private:
-  void work() {
-    const std::function<bool()> goes_on = [this] { return !stopped_; };
+  void work(const std::function<bool()>& goes_on) {
     const StopQuestion question(goes_on);
     try {
-      for (std::size_t i = next_++; i < jobs_.size() && !stopped_; i = next_++) {
+      for (std::size_t i = next_++; i < jobs_.size() && goes_on(); i = next_++) {
         const auto& [method, at_walls] = jobs_[i];
         PropertyRow row = at_walls ? measure_at_walls(method, *at_walls)
                                    : measure_method(method, given_.empty() ? default_regions(method) : given_);
@@ -129,7 +134,7 @@ class Verification::Impl {
       if (!failure_) failure_ = std::current_exception();
     }
     const std::lock_guard lock(mutex_);
-    --at_work_;
+    if (at_work_ > 0) --at_work_;
     finished_.notify_all();
   }
 
@@ -142,7 +147,7 @@ class Verification::Impl {
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable finished_;
-  std::vector<std::jthread> helpers_;  // the last member: they end before what they use
+  std::vector<Thread> helpers_;  // the last member: they end before what they use
 };
 
 Verification::Verification(const VerificationRequest& request) : impl_(std::make_unique<Impl>(request)) {}

@@ -171,7 +171,7 @@ class WalledStepMap final : public StepMap {
     if (run->advance(steps) != Outcome::done) return false;
     const std::vector<std::byte> bits = run->bits();
     const std::size_t stride = bits.size() / z.size();
-    for (std::size_t i = 0; i < z.size(); ++i) std::memcpy(&z[i], &bits[i * stride], sizeof(Quad));
+    for (std::size_t i = 0; i < z.size(); ++i) Reader(std::span(bits).subspan(i * stride))(z[i]);
     return true;
   }
 

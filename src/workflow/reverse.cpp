@@ -1,11 +1,11 @@
 #include "hamflow/workflow/reverse.hpp"
 
 #include <fmt/format.h>
-#include <mpfr.h>
 
 #include <cmath>
 #include <functional>
 
+#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
@@ -110,15 +110,7 @@ const char* const below_the_digits =
 /// 98 digits if the two halves of a number are far apart; reverse.h5 has these.
 std::vector<std::string> shown(std::vector<std::string> texts, const std::string& arithmetic) {
   if (arithmetic != "double-double") return texts;
-  mpfr_t x;
-  mpfr_init2(x, 320);
-  for (std::string& text : texts) {
-    char rounded[64];
-    mpfr_set_str(x, text.c_str(), 10, MPFR_RNDN);
-    mpfr_snprintf(rounded, sizeof rounded, "%.33Rg", x);
-    text = rounded;
-  }
-  mpfr_clear(x);
+  for (std::string& text : texts) text = rounded_decimal(text, 33);
   return texts;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../support/arithmetics.hpp"
 #include "../support/walled_request.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/verify/certificate.hpp"
@@ -362,7 +363,7 @@ TEST(Walls, TheForceOfASoftWall) {
 Frame exact_motion(double end) {
   Request plain = t_tube("taylor", WallRule::event, "0.05", "-0.6", {"1", "100"});
   plain.variant.clear();
-  plain.arithmetic = "quad";
+  plain.arithmetic = test::present({"double-double", "quad"}).back();
   const double at[2][2] = {{-1, 1}, {0.1, 2.1}};
   double t = 0;
   while (true) {

@@ -22,9 +22,11 @@ struct Case {
   std::string request;  // what is run, for `show`
   Maker numbers;
   std::vector<Variant> variants{};
+  bool is_beyond_portable = false;  // in quad or mp(d)
 };
 
-/// In a fixed order. A name is PROBLEM/METHOD/ARITHMETIC or longer, without blanks, and stands once.
+/// In a fixed order. A name is PROBLEM/METHOD/ARITHMETIC or longer, without blanks, and stands once. A portable
+/// build has none in quad or mp(d).
 std::vector<Case> all_cases();
 
 }  // namespace hamflow::test

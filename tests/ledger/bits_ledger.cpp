@@ -7,15 +7,15 @@
 // A change that is meant to keep every bit passes `check`. After a deliberate change, `write` the file, and say in the
 // commit why the bits of these cases changed. To see how two builds differ, compare what `show` prints in each.
 //
-// The file has one hash for the cases that differ only in their last word, mostly the arithmetic: a row. Rows of one
-// problem stand under its name.
+// Cases that differ only in their last word, mostly the arithmetic, are a row. Rows of one problem stand under its
+// name. A row has up to three hashes, of its cases of each kind:
+//     +      only + - * / sqrt in double, compensated, double-double or on the lattice: the same bits on every machine
+//     libm   calls exp, sin, ... of the C library, which may have other last bits in another version or on another
+//            processor: compared only where these functions give the bits that they gave when the file was written
+//     other  in quad or mp(d), or with functions of double-double: not compared in a portable build
 //
 // Some cases have variants that must not change a bit: steps that are not recorded, a run that is saved and restored,
-// members in SIMD lanes, threads. Their numbers are compared with those of the case itself.
-//
-// exp, sin, ... of the C library may have other last bits in another version of it or on another processor. A row
-// that calls them is marked `libm`. Where the functions give other bits than those that the file was written with,
-// such rows are compared with their variants alone.
+// members in SIMD lanes, threads. Their numbers are compared with those of the case itself, whatever its kind.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -25,20 +25,23 @@
 #include <sstream>
 
 #include "bits_cases.hpp"
-#include "c_library.hpp"
+#include "function_calls.hpp"
+#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/detail/core/hash.hpp"
+#include "hamflow/detail/numerics/lobatto.hpp"
+#include "hamflow/numerics/gauss_legendre.hpp"
 
 namespace hamflow::test {
 namespace {
 
 constexpr const char* c_library_name = "C-library";
 
-/// What the file says of a row.
-struct Entry {
-  std::string hash;
-  bool calls_c_library = false;
-};
+const std::string portable = "+";
+const std::string c_library = "libm";
+const std::string other = "other";
+/// By kind.
+using Hashes = std::map<std::string, std::string>;
 struct Row {
   std::string name;
   std::vector<Case> cases{};
@@ -68,44 +71,64 @@ std::vector<Row> all_rows() {
 std::string hash_text(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-Entry entry_of(const std::string& numbers) {
-  return {hash_text(fnv1a(std::as_bytes(std::span(numbers)))), called_c_library()};
+  return std::string(text).substr(4);
 }
 
-/// The numbers of all cases of a row. @param changed receives which variants have other ones
-std::string numbers_of(const Row& row, std::vector<std::string>& changed, std::size_t& variants) {
-  std::string all;
-  for (const Case& one : row.cases) {
-    const std::string numbers = one.numbers();
-    all += one.name + "\n" + numbers;
-    for (const Variant& variant : one.variants) {
-      if (variant.numbers() != numbers) changed.push_back(one.name + ": other numbers when " + variant.name);
-    }
-    variants += one.variants.size();
+/// Made once and kept: that their first user calls functions would make its case one of another kind.
+void make_tables() {
+  (void)gauss_rule<double>(1);
+  for (int stages = 2; stages <= 10; ++stages) {
+    (void)lobatto_pair<double>(stages);
+    (void)lobatto_pair<DoubleDouble>(stages);
   }
-  return all;
 }
 
-std::map<std::string, Entry> read_file(const std::string& file) {
+/// The numbers of a case, and its kind.
+std::pair<std::string, std::string> computed(const Case& one) {
+  (void)function_calls();
+  std::string numbers = one.numbers();
+  const FunctionCalls calls = function_calls();
+  const bool is_other = one.is_beyond_portable || calls.double_double;
+  return {std::move(numbers), is_other ? other : calls.c_library ? c_library : portable};
+}
+
+struct Computed {
+  Hashes hashes{};
+  std::map<std::string, std::size_t> cases{};  // how many there are of each kind
+  std::vector<std::string> changed{};          // variants with other numbers
+  std::size_t variants = 0;
+};
+Computed computed(const Row& row) {
+  Computed result;
+  std::map<std::string, std::string> texts;
+  for (const Case& one : row.cases) {
+    const auto [numbers, kind] = computed(one);
+    texts[kind] += one.name + "\n" + numbers;
+    ++result.cases[kind];
+    for (const Variant& variant : one.variants) {
+      if (variant.numbers() != numbers) result.changed.push_back(one.name + ": other numbers when " + variant.name);
+    }
+    result.variants += one.variants.size();
+  }
+  for (const auto& [kind, text] : texts) result.hashes[kind] = hash_text(fnv1a(std::as_bytes(std::span(text))));
+  return result;
+}
+
+std::map<std::string, Hashes> read_file(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw Error(file + ": cannot be read");
-  std::map<std::string, Entry> entries;
+  std::map<std::string, Hashes> rows;
   std::string section;
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
-    std::string name, mark;
-    Entry entry;
-    if (!line.starts_with(' ')) {
-      section = line;
-    } else if (words >> entry.hash >> name >> mark; !entry.hash.empty()) {
-      entry.calls_c_library = mark == "libm" || name == "libm";
-      const bool is_section = name.empty() || name == "libm";
-      entries[is_section ? section : section + "/" + name] = entry;
-    }
+    std::string name, kind, hash;
+    words >> name;
+    if (!line.starts_with(' ')) section = name;
+    Hashes hashes;
+    while (words >> kind >> hash) hashes[kind] = hash;
+    if (!hashes.empty()) rows[line.starts_with(' ') ? section + "/" + name : name] = hashes;
   }
-  return entries;
+  return rows;
 }
 
 bool is_chosen(const std::string& name, std::span<const std::string> parts) {
@@ -117,52 +140,69 @@ bool is_chosen(const Row& row, std::span<const std::string> parts) {
 }
 
 int check(const std::string& file, std::span<const std::string> parts) {
-  const std::map<std::string, Entry> stored = read_file(file);
+  const std::map<std::string, Hashes> stored = read_file(file);
   const auto library = stored.find(c_library_name);
-  const bool is_same_library = library != stored.end() && library->second.hash == hash_text(hash_of_c_library());
+  const bool is_same_library =
+      library != stored.end() && library->second == Hashes{{c_library, hash_text(hash_of_c_library())}};
+  const auto is_compared = [&](const std::string& kind) {
+    return kind == other ? has_quad_and_mp : kind == portable || is_same_library;
+  };
   std::vector<std::string> differing;
-  std::size_t compared = 0, variants = 0, left_out = 0, known = 1;
+  std::map<std::string, std::size_t> compared;
+  std::size_t variants = 0, left_out = 0, known = 1;
+  make_tables();
   for (const Row& row : all_rows()) {
     const auto found = stored.find(row.name);
     known += found != stored.end() ? 1 : 0;
     if (!is_chosen(row, parts)) continue;
-    (void)called_c_library();
-    const Entry entry = entry_of(numbers_of(row, differing, variants));
-    if (found == stored.end()) {
-      differing.push_back(row.name + ": not in the file");
-    } else if (!is_same_library && (entry.calls_c_library || found->second.calls_c_library)) {
-      left_out += row.cases.size();
-    } else {
-      compared += row.cases.size();
-      if (found->second.hash != entry.hash) differing.push_back(row.name);
+    const Computed here = computed(row);
+    differing.insert(differing.end(), here.changed.begin(), here.changed.end());
+    variants += here.variants;
+    if (found == stored.end()) differing.push_back(row.name + ": not in the file");
+    const Hashes& wanted = found == stored.end() ? here.hashes : found->second;
+    for (const std::string& kind : {portable, c_library, other}) {
+      const auto count = here.cases.find(kind);
+      if (!is_compared(kind)) {
+        left_out += count == here.cases.end() ? 0 : count->second;
+        continue;
+      }
+      if (count != here.cases.end()) compared[kind] += count->second;
+      const auto a = here.hashes.find(kind);
+      const auto b = wanted.find(kind);
+      const bool are_equal = a == here.hashes.end() ? b == wanted.end() : b != wanted.end() && a->second == b->second;
+      if (!are_equal) differing.push_back(row.name + " (" + kind + ")");
     }
   }
-  if (stored.size() != known) {
+  if (stored.size() != known && has_quad_and_mp) {
     differing.push_back(file + " has " + std::to_string(stored.size()) + " rows, " + std::to_string(known) +
                         " of which there are");
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(differing.size(), 20); ++i) std::cout << differing[i] << "\n";
-  std::cout << compared << " cases and " << variants << " variants of them compared, " << differing.size()
-            << " differ\n";
-  if (left_out > 0)
-    std::cout << left_out << " cases were not compared: the C library gives other bits than that of the file\n";
+  std::cout << compared[portable] + compared[c_library] + compared[other] << " cases (" << compared[portable]
+            << " of + - * / sqrt alone) and " << variants << " variants compared, " << differing.size() << " differ\n";
+  if (left_out > 0) {
+    std::cout << left_out << " cases were not compared: their functions have other last bits than those of the file\n";
+  }
   if (!differing.empty()) std::cout << "to see numbers: bits_ledger show NAME, in both builds\n";
   return differing.empty() ? 0 : 1;
 }
 
 int write(const std::string& file) {
-  std::string text = std::string(c_library_name) + "\n  " + hash_text(hash_of_c_library()) + "\n";
+  if (!has_quad_and_mp) throw Error("a portable build has no quad and mp(d): found write; allowed check, show");
+  std::string text = std::string(c_library_name) + " " + c_library + " " + hash_text(hash_of_c_library()) + "\n";
   std::string section;
   std::vector<std::string> changed;
-  std::size_t variants = 0;
+  make_tables();
   for (const Row& row : all_rows()) {
-    (void)called_c_library();
-    const Entry entry = entry_of(numbers_of(row, changed, variants));
-    const std::string here = section_of(row.name);
-    if (here != section) text += here + "\n";
-    section = here;
-    text += "  " + entry.hash + (row.name == here ? "" : " " + row.name.substr(here.size() + 1)) +
-            (entry.calls_c_library ? " libm\n" : "\n");
+    const Computed here = computed(row);
+    changed.insert(changed.end(), here.changed.begin(), here.changed.end());
+    const std::string begin = section_of(row.name);
+    if (begin != section || row.name == begin) text += begin;
+    if (begin != section && row.name != begin) text += "\n";
+    section = begin;
+    if (row.name != begin) text += "  " + row.name.substr(begin.size() + 1);
+    for (const auto& [kind, hash] : here.hashes) text += " " + kind + " " + hash;
+    text += "\n";
   }
   for (const std::string& each : changed) std::cout << each << "\n";
   std::ofstream out(file);
@@ -172,16 +212,14 @@ int write(const std::string& file) {
 }
 
 int show(std::span<const std::string> parts) {
+  make_tables();
   for (const Case& one : all_cases()) {
     if (!is_chosen(one.name, parts)) continue;
-    (void)called_c_library();
-    const std::string numbers = one.numbers();
-    std::cout << "== " << one.name << (called_c_library() ? " (calls the C library)" : "") << "\n"
-              << one.request << "--\n"
-              << numbers;
+    const auto [numbers, kind] = computed(one);
+    std::cout << "== " << one.name << " (" << kind << ")\n" << one.request << "--\n" << numbers;
     for (const Variant& variant : one.variants) {
-      const std::string other = variant.numbers();
-      if (other != numbers) std::cout << "-- other numbers when " << variant.name << "\n" << other;
+      const std::string changed = variant.numbers();
+      if (changed != numbers) std::cout << "-- other numbers when " << variant.name << "\n" << changed;
     }
   }
   return 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/arithmetics.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow::test {
@@ -89,7 +90,7 @@ TEST(GasImages, HaveTheSameBitsEveryWay) {
 
 /// However far away: forces of an image do not vanish.
 TEST(GasImages, AreFoundAtAnyDistance) {
-  for (const char* arithmetic : {"double", "quad"}) {
+  for (const std::string& arithmetic : test::present({"double", "quad"})) {
     const auto momenta = [&](const std::string& edges) {
       Request request = far_apart(edges);
       request.arithmetic = arithmetic;

@@ -1,5 +1,6 @@
 // Gauss rules and small linear systems.
 #include "../support/near.hpp"
+#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/detail/numerics/dense.hpp"
 #include "hamflow/detail/numerics/lu_factors.hpp"
@@ -165,10 +166,10 @@ TEST(Dense, FactorsSolveSystemsWhoseRowsHaveUnitsOfTheirOwn) {
       const Vector<double, dynamic> x = factors.solve(b);
       const double growth = std::pow(17, static_cast<double>(size));
       for (std::size_t i = 0; i < size; ++i) {
-        __float128 rest = b[i];
+        Quad rest = b[i];
         double largest = std::abs(b[i]);
         for (std::size_t j = 0; j < size; ++j) {
-          rest -= static_cast<__float128>(m[i][j]) * x[j];
+          rest -= Quad(m[i][j]) * Quad(x[j]);
           largest = std::max(largest, std::abs(m[i][j]));
         }
         EXPECT_LE(std::abs(static_cast<double>(rest)),

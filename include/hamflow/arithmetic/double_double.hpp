@@ -3,13 +3,13 @@
 // invariants.
 #pragma once
 
-#include <qd/dd_real.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/detail/arithmetic/extended.hpp"
+#include "hamflow/detail/arithmetic/number_types.hpp"
+#include "hamflow/detail/arithmetic/two_doubles.hpp"
 
 namespace hamflow {
 
@@ -19,10 +19,13 @@ inline constexpr int wide_digits = 98;
 std::string written_wide(const dd_real& x);
 /// The nearest double to a decimal, plus the nearest double to the rest.
 dd_real read_wide(std::string_view text);
+/// A decimal of any length, rounded to so many significant digits, without zeros at its end.
+std::string rounded_decimal(const std::string& text, int digits);
 
 template <>
 struct ExtendedTraits<dd_real> {
   using T = dd_real;
+  using Wider = ExtendedTraits<QuadNumber>;
   static constexpr int digits = 106;
   template <class U>
   static T made(U x) {
@@ -35,7 +38,8 @@ struct ExtendedTraits<dd_real> {
   }
   template <class U>
   static U as(const T& x) {
-    return static_cast<U>(static_cast<long double>(x.x[0]) + static_cast<long double>(x.x[1]));
+    using Sum = std::conditional_t<std::is_same_v<U, long double>, long double, Wide>;
+    return static_cast<U>(static_cast<Sum>(x.x[0]) + static_cast<Sum>(x.x[1]));
   }
   static T add(const T& a, const T& b) { return T::ieee_add(a, b); }
   static T subtract(const T& a, const T& b) { return T::ieee_add(a, -b); }
@@ -49,20 +53,20 @@ struct ExtendedTraits<dd_real> {
   static constexpr double largest_side = 1e150;
   static T sqrt(const T& x) { return x.x[0] >= 0 && std::isfinite(x.x[0]) ? ::sqrt(x) : T(std::sqrt(x.x[0])); }
   static T exp(const T& x) { return ::exp(x); }
-  static T log(const T& x) { return x.x[0] > 0 && std::isfinite(x.x[0]) ? ::log(x) : rounded(::logq(widened(x))); }
-  static T sin(const T& x) { return is_below(x, largest_angle) ? ::sin(x) : rounded(::sinq(widened(x))); }
-  static T cos(const T& x) { return is_below(x, largest_angle) ? ::cos(x) : rounded(::cosq(widened(x))); }
-  static T tan(const T& x) { return is_below(x, largest_angle) ? ::tan(x) : rounded(::tanq(widened(x))); }
+  static T log(const T& x) { return x.x[0] > 0 && std::isfinite(x.x[0]) ? ::log(x) : rounded(Wider::log(widened(x))); }
+  static T sin(const T& x) { return is_below(x, largest_angle) ? ::sin(x) : rounded(Wider::sin(widened(x))); }
+  static T cos(const T& x) { return is_below(x, largest_angle) ? ::cos(x) : rounded(Wider::cos(widened(x))); }
+  static T tan(const T& x) { return is_below(x, largest_angle) ? ::tan(x) : rounded(Wider::tan(widened(x))); }
   static T asin(const T& x) { return ::abs(x) <= T(1.0) ? ::asin(x) : nan(); }
   static T acos(const T& x) { return ::abs(x) <= T(1.0) ? ::acos(x) : nan(); }
-  static T atan(const T& x) { return is_below(x, largest_side) ? ::atan(x) : rounded(::atanq(widened(x))); }
-  static T sinh(const T& x) { return is_below(x, largest_exponent) ? ::sinh(x) : rounded(::sinhq(widened(x))); }
-  static T cosh(const T& x) { return is_below(x, largest_exponent) ? ::cosh(x) : rounded(::coshq(widened(x))); }
-  static T tanh(const T& x) { return is_below(x, largest_exponent) ? ::tanh(x) : rounded(::tanhq(widened(x))); }
+  static T atan(const T& x) { return is_below(x, largest_side) ? ::atan(x) : rounded(Wider::atan(widened(x))); }
+  static T sinh(const T& x) { return is_below(x, largest_exponent) ? ::sinh(x) : rounded(Wider::sinh(widened(x))); }
+  static T cosh(const T& x) { return is_below(x, largest_exponent) ? ::cosh(x) : rounded(Wider::cosh(widened(x))); }
+  static T tanh(const T& x) { return is_below(x, largest_exponent) ? ::tanh(x) : rounded(Wider::tanh(widened(x))); }
   static T atan2(const T& y, const T& x) {
     const double side = std::max(std::abs(y.x[0]), std::abs(x.x[0]));
     const bool has_square = is_below(x, largest_side) && is_below(y, largest_side) && side > 1 / largest_side;
-    return has_square ? ::atan2(y, x) : rounded(::atan2q(widened(y), widened(x)));
+    return has_square ? ::atan2(y, x) : rounded(Wider::atan2(widened(y), widened(x)));
   }
   /// Computed with the logarithm; only whole powers for a number below 0.
   static T pow(const T& x, const T& y) {
@@ -74,10 +78,10 @@ struct ExtendedTraits<dd_real> {
     return is_odd ? -size : size;
   }
   static bool is_below(const T& x, double limit) { return std::abs(x.x[0]) < limit; }
-  static __float128 widened(const T& x) { return static_cast<__float128>(x.x[0]) + static_cast<__float128>(x.x[1]); }
-  static T rounded(__float128 x) {
+  static QuadNumber widened(const T& x) { return static_cast<QuadNumber>(x.x[0]) + static_cast<QuadNumber>(x.x[1]); }
+  static T rounded(const QuadNumber& x) {
     const auto high = static_cast<double>(x);
-    return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<__float128>(high))) : T(high);
+    return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<QuadNumber>(high))) : T(high);
   }
   /// By way of quad, whose reader rounds correctly: QD's own loses some digits. Only what written() gives where quad
   /// cannot hold both halves has more than 64 digits, and is read as it stands.
@@ -86,12 +90,12 @@ struct ExtendedTraits<dd_real> {
     if (std::count_if(mantissa.begin(), mantissa.end(), [](char c) { return c >= '0' && c <= '9'; }) > 64) {
       return read_wide(text);
     }
-    return rounded(ExtendedTraits<__float128>::read(text));
+    return rounded(Wider::read(text));
   }
   static std::string written(const T& x) {
-    const __float128 sum = widened(x);
-    const bool holds_both = sum - static_cast<__float128>(x.x[0]) == static_cast<__float128>(x.x[1]);
-    return holds_both || !std::isfinite(x.x[0]) ? ExtendedTraits<__float128>::written(sum) : written_wide(x);
+    const QuadNumber sum = widened(x);
+    const bool holds_both = sum - static_cast<QuadNumber>(x.x[0]) == static_cast<QuadNumber>(x.x[1]);
+    return holds_both || !std::isfinite(x.x[0]) ? Wider::written(sum) : written_wide(x);
   }
   static T epsilon() { return T(0x1p-104); }
   static T max() { return T(std::numeric_limits<double>::max(), std::numeric_limits<double>::max() * 0x1p-54); }

@@ -1,8 +1,11 @@
-// Quadruple precision, IEEE binary128, about 34 digits, by the compiler and libquadmath.
+// Quadruple precision, IEEE binary128, about 34 digits, by the compiler and libquadmath; in a portable build in
+// software.
 #pragma once
 
 #include "hamflow/detail/arithmetic/extended.hpp"
+#include "hamflow/detail/arithmetic/number_types.hpp"
 
+#ifndef HAMFLOW_PORTABLE
 // Declared here and not by <quadmath.h>, which only GCC finds; both compilers link GCC's library.
 extern "C" {
 __float128 fabsq(__float128) noexcept;
@@ -28,8 +31,8 @@ int quadmath_snprintf(char*, std::size_t, const char*, ...) noexcept;
 namespace hamflow {
 
 template <>
-struct ExtendedTraits<__float128> {
-  using T = __float128;
+struct ExtendedTraits<QuadNumber> {
+  using T = QuadNumber;
   static constexpr int digits = 113;
   template <class U>
   static T made(U x) {
@@ -73,11 +76,16 @@ struct ExtendedTraits<__float128> {
   static T nan() { return static_cast<T>(std::numeric_limits<double>::quiet_NaN()); }
 };
 
-using Quad = Extended<__float128>;
+}  // namespace hamflow
+#endif
+
+namespace hamflow {
+
+using Quad = Extended<QuadNumber>;
 
 template <>
 inline Quad parse_decimal<Quad>(std::string_view text) {
-  return Quad(ExtendedTraits<__float128>::read(text));
+  return Quad(ExtendedTraits<QuadNumber>::read(text));
 }
 extern template Quad evaluate_number<Quad>(std::string_view);  // in src/arithmetic/numbers.cpp
 

@@ -12,6 +12,7 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/detail/arithmetic/number_types.hpp"
 #include "hamflow/detail/core/capability.hpp"
 
 namespace hamflow {
@@ -63,29 +64,29 @@ class BorisStep {
   }
 
  private:
-  /// A double is rotated in long double and rounded once. In double some rounding errors of the rotation are the same
+  /// A double is rotated in Wide and rounded once. In double some rounding errors of the rotation are the same
   /// in every step (that of 2/(1 + t^2)) and make the energy drift by 10^-3 roundings per step, as measured.
-  using Wide = std::conditional_t<std::is_same_v<Real, double>, long double, Real>;
+  using Fine = std::conditional_t<std::is_same_v<Real, double>, Wide, Real>;
 
   /// The increment of v by the rotation.
   static Vector<Real, n> rotated_by(const P& problem, const Base& h, const Vector<Real, n>& v) {
     const auto omega = problem.rotation();
-    Vector<Wide, n> t = zeros<Wide, n>(v.size());
-    Wide square(0);
+    Vector<Fine, n> t = zeros<Fine, n>(v.size());
+    Fine square(0);
     for (std::size_t i = 0; i < v.size(); ++i) {
       t[i] = (h / Base(2)) * omega[i];
       square += t[i] * t[i];
     }
-    Vector<Wide, n> half = t;
+    Vector<Fine, n> half = t;
     for (std::size_t i = 0; i < v.size(); ++i) half[i] = v[i];
-    const Vector<Wide, n> turn = cross(half, t);
+    const Vector<Fine, n> turn = cross(half, t);
     for (std::size_t i = 0; i < v.size(); ++i) half[i] += turn[i];
-    const Vector<Wide, n> change = cross(half, t);
+    const Vector<Fine, n> change = cross(half, t);
     Vector<Real, n> out = zeros_like(v);
-    for (std::size_t i = 0; i < v.size(); ++i) out[i] = static_cast<Real>(change[i] * (Wide(2) / (Wide(1) + square)));
+    for (std::size_t i = 0; i < v.size(); ++i) out[i] = static_cast<Real>(change[i] * (Fine(2) / (Fine(1) + square)));
     return out;
   }
-  static Vector<Wide, n> cross(const Vector<Wide, n>& a, const Vector<Wide, n>& b) {
+  static Vector<Fine, n> cross(const Vector<Fine, n>& a, const Vector<Fine, n>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
   long long steps_ = 0;

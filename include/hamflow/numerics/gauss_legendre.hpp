@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "hamflow/core/number.hpp"
-
-struct dd_real;
+#include "hamflow/detail/arithmetic/number_types.hpp"
 
 namespace hamflow {
-
-template <class T>
-class Extended;
 
 /// s points c = 1/2 + offset and weights b, exact for polynomials of degree 2 s - 1, ascending. Offsets and weights are
 /// symmetric bit for bit; c cannot be, because 1/2 + offset rounds; so symmetric computations use the offsets.
@@ -64,7 +60,7 @@ GaussRule<R> make_gauss_rule(int s) {
 template <>
 GaussRule<Extended<dd_real>> make_gauss_rule<Extended<dd_real>>(int s);
 template <>
-GaussRule<Extended<__float128>> make_gauss_rule<Extended<__float128>>(int s);
+GaussRule<Extended<QuadNumber>> make_gauss_rule<Extended<QuadNumber>>(int s);
 template <class To, class From>
 GaussRule<To> rounded(const GaussRule<From>& rule) {
   GaussRule<To> out{rule.points, {}, {}, {}};
@@ -89,8 +85,8 @@ const GaussRule<R>& gauss_rule(int s) {
       std::vector<GaussRule<R>> all(1);
       for (int k = 1; k <= most_gauss_points; ++k) {
         if constexpr (std::is_same_v<R, double>) {
-          // Computed in long double and rounded once.
-          all.push_back(detail::rounded<double>(detail::make_gauss_rule<long double>(k)));
+          // Computed in Wide and rounded once.
+          all.push_back(detail::rounded<double>(detail::make_gauss_rule<Wide>(k)));
         } else {
           all.push_back(detail::make_gauss_rule<R>(k));
         }

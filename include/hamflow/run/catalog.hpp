@@ -162,10 +162,7 @@ inline constexpr double most_residual_at_start = 1e-12;
 std::span<const ProblemEntry> problems();
 std::span<const MethodEntry> methods();
 /// "mp(d)" stands for any number of digits, e.g. mp(50).
-inline const std::vector<std::string>& arithmetics() {
-  static const std::vector<std::string> names{"double", "compensated", "double-double", "quad", "mp(d)", "lattice"};
-  return names;
-}
+const std::vector<std::string>& arithmetics();
 /// d of "mp(d)"; 0 for any other name. @throws Error if d is not a valid number of digits
 int mp_digits(const std::string& arithmetic);
 /// Decimal digits of an arithmetic with more digits than double: 31, 33, d; else 0.

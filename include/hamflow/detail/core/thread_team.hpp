@@ -12,17 +12,20 @@
 #include <vector>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/detail/core/thread.hpp"
 
 namespace hamflow {
 
 class ThreadTeam {
  public:
   /// @param size the number of workers, the caller of share() included
+  /// Without threads (a portable build) the caller does all the work.
   /// @throws Error if the system cannot start so many threads
   explicit ThreadTeam(std::size_t size) : size_(size) {
     threads_.reserve(size);
     try {
-      for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
+      for (std::size_t worker = 1; has_threads && worker < size; ++worker)
+        threads_.emplace_back([this, worker] { serve(worker); });
     } catch (const std::system_error& error) {
       const std::size_t started = threads_.size();
       dismiss();  // started threads sleep; without this the destructor would wait for ever
@@ -123,7 +126,7 @@ class ThreadTeam {
   alignas(64) std::atomic<std::size_t> done_{0};
   alignas(64) std::atomic<std::uint32_t> calls_{0};  // sleeping workers wait for a change
   std::atomic<bool> leaving_{false};
-  std::vector<std::jthread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace hamflow

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/detail/arithmetic/number_types.hpp"
 #include "hamflow/detail/numerics/legendre.hpp"
 
 namespace hamflow {
@@ -97,12 +98,12 @@ const LobattoPair<R>& lobatto_pair(int stages) {
   const std::pair key{precision_in_use<R>(), stages};
   const auto found = pairs.find(key);
   if (found != pairs.end()) return found->second;
-  if constexpr (std::is_same_v<R, double>) {  // computed in long double and rounded once
-    const auto fine = detail::made_lobatto_pair<long double>(stages);
+  if constexpr (std::is_same_v<R, double>) {  // computed in Wide and rounded once
+    const auto fine = detail::made_lobatto_pair<Wide>(stages);
     LobattoPair<double> pair{stages, {}, {}, {}};
-    for (const long double x : fine.offset) pair.offset.push_back(static_cast<double>(x));
-    for (const long double x : fine.b) pair.b.push_back(static_cast<double>(x));
-    for (const long double x : fine.nu) pair.nu.push_back(static_cast<double>(x));
+    for (const Wide& x : fine.offset) pair.offset.push_back(static_cast<double>(x));
+    for (const Wide& x : fine.b) pair.b.push_back(static_cast<double>(x));
+    for (const Wide& x : fine.nu) pair.nu.push_back(static_cast<double>(x));
     return pairs.emplace(key, std::move(pair)).first->second;
   } else {
     return pairs.emplace(key, detail::made_lobatto_pair<R>(stages)).first->second;

@@ -179,7 +179,7 @@ AverageTable<To> rounded(const AverageTable<From>& t) {
 }
 
 /// Tables by number. Each is made once, and its address does not change.
-/// @param make() makes the table; for double in long double, to round only once
+/// @param make() makes the table; for double in Wide, to round only once
 template <class R, class Make>
 const AverageTable<R>& kept_table(int averages, int points, const Make& make) {
   static std::mutex mutex;
@@ -189,7 +189,7 @@ const AverageTable<R>& kept_table(int averages, int points, const Make& make) {
   const auto found = tables.find(key);
   if (found != tables.end()) return found->second;
   if constexpr (std::is_same_v<R, double>) {
-    return tables.emplace(key, rounded<double>(make.template operator()<long double>())).first->second;
+    return tables.emplace(key, rounded<double>(make.template operator()<Wide>())).first->second;
   } else {
     return tables.emplace(key, make.template operator()<R>()).first->second;
   }

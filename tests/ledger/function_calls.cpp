@@ -1,15 +1,18 @@
-#include "c_library.hpp"
+#include "function_calls.hpp"
 
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <span>
 
+#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/detail/core/hash.hpp"
 
 namespace {
 std::atomic<bool> was_called{false};
+std::atomic<bool> was_called_in_double_double{false};
 void note_call() { was_called.store(true, std::memory_order_relaxed); }
+void note_double_double() { was_called_in_double_double.store(true, std::memory_order_relaxed); }
 }  // namespace
 
 // The functions that are not correctly rounded. The same names stand in tests/CMakeLists.txt.
@@ -59,11 +62,44 @@ void __wrap_sincos(double x, double* sine, double* cosine) {
   __real_sincos(x, sine, cosine);
 }
 }
+
+// Those of double-double, by the names of the linker.
+#define HAMFLOW_WRAP(name)                    \
+  dd_real __real__Z##name(const dd_real& x);  \
+  dd_real __wrap__Z##name(const dd_real& x);  \
+  dd_real __wrap__Z##name(const dd_real& x) { \
+    note_double_double();                     \
+    return __real__Z##name(x);                \
+  }
+extern "C" {
+HAMFLOW_WRAP(3expRK7dd_real)
+HAMFLOW_WRAP(3logRK7dd_real)
+HAMFLOW_WRAP(3sinRK7dd_real)
+HAMFLOW_WRAP(3cosRK7dd_real)
+HAMFLOW_WRAP(3tanRK7dd_real)
+HAMFLOW_WRAP(4asinRK7dd_real)
+HAMFLOW_WRAP(4acosRK7dd_real)
+HAMFLOW_WRAP(4atanRK7dd_real)
+HAMFLOW_WRAP(4sinhRK7dd_real)
+HAMFLOW_WRAP(4coshRK7dd_real)
+HAMFLOW_WRAP(4tanhRK7dd_real)
+#undef HAMFLOW_WRAP
+#define HAMFLOW_WRAP(name)                                      \
+  dd_real __real__Z##name(const dd_real& x, const dd_real& y);  \
+  dd_real __wrap__Z##name(const dd_real& x, const dd_real& y);  \
+  dd_real __wrap__Z##name(const dd_real& x, const dd_real& y) { \
+    note_double_double();                                       \
+    return __real__Z##name(x, y);                               \
+  }
+HAMFLOW_WRAP(5atan2RK7dd_realS1_)
+HAMFLOW_WRAP(3powRK7dd_realS1_)
+#undef HAMFLOW_WRAP
+}
 // NOLINTEND
 
 namespace hamflow::test {
 
-bool called_c_library() { return was_called.exchange(false); }
+FunctionCalls function_calls() { return {was_called.exchange(false), was_called_in_double_double.exchange(false)}; }
 
 std::uint64_t hash_of_c_library() {
   std::uint64_t hash = fnv1a_of_nothing;
