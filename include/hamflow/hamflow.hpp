@@ -154,6 +154,7 @@
 #include "hamflow/verify/extrapolated_midpoint.hpp"
 #include "hamflow/verify/log_certificate.hpp"
 #include "hamflow/verify/long_number.hpp"
+#include "hamflow/verify/lyapunov_of.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "hamflow/verify/reference_solution.hpp"
 #include "hamflow/verify/verification.hpp"

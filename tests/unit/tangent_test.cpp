@@ -2,7 +2,6 @@
 // known, and on Henon-Heiles against a method without derivatives.
 #include "../support/near.hpp"
 #include "engine/step_map_of.hpp"
-#include "hamflow/detail/verify/lyapunov_of.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
@@ -13,6 +12,7 @@
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/potentials/hooke.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
+#include "hamflow/verify/lyapunov_of.hpp"
 #include "verify/monodromy.hpp"
 
 namespace hamflow {
