@@ -214,7 +214,7 @@ int run(const Options& options) {
     return rejected(json, {{"", 0, 0, "", error.what()}});
   } catch (const std::bad_alloc&) {
     const std::string more =
-        fmt::format("; all finished results are in {}; to continue, run the same command with --resume{}",
+        fmt::format("; the results so far are in {}; to continue, give the same command with --resume{}",
                     folder_for(options).string(), options.force ? " in place of --force" : "");
     return failed(json, "memory", "out of memory" + (begun ? more : ""), exit_failed);
   } catch (const std::exception& error) {

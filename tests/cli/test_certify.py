@@ -92,7 +92,7 @@ class Certify(CommandCase):
         for cut in ("300.0", "300.0,-0.5"):
             self.write("cut.csv", whole + cut)
             done = self.hamflow("certify", "cut.csv", "--time", "t", "--energy", "E")
-            self.assertIn("note: cut.csv:3002 is cut", done.stderr)
+            self.assertIn("note: cut.csv:3002: the last line has no line end", done.stderr)
             self.assertEqual(self.certified("cut.csv", "t", "E")["samples"], 3000)
         self.write("cut.csv", whole + "300.0,-0.5,-0.5")
         self.assertEqual(self.certified("cut.csv", "t", "E")["samples"], 3001)

@@ -34,7 +34,8 @@ class Cite(CommandCase):
         cited = entries(self.hamflow("cite", "stv4").stdout)
         self.assertEqual(list(cited), ["hamflow", "Sonnleitner2010", "Yoshida1990"])
         self.assertIn("Yoshida, H.", cited["Yoshida1990"])
-        self.assertEqual(self.hamflow("cite", "cg(2,6)").stdout, self.hamflow("cite", "cg").stdout)
+        self.assertEqual(list(entries(self.hamflow("cite", "cg(2,6)").stdout)),
+                         ["hamflow", "Gross1999", "BrugnanoIavernaroTrigiante2010"])
 
     def test_a_run_and_its_scenario_cite_the_same(self):
         self.write("a.toml", self.hamflow("new", "henon-heiles", "--method", "kahan-li8").stdout)

@@ -48,7 +48,7 @@ section = { expression = "x", direction = 0 }
         found = self.summary("o.toml", "--set", 'run.section={expression="tan(x)",direction=0}')["section"]
         self.assertEqual(found["points"], zeros)
         self.assertLess(found["max_residual"], 1e-14)
-        self.assertIn("no zeros", found["message"])
+        self.assertIn("not zeros", found["message"])
 
     def test_zeros_beside_the_edge_of_a_domain(self):
         """sqrt(x) - 0.1 has the zeros of x - 0.01, though steps of 0.1 begin and end below 0, where it has no value."""

@@ -427,7 +427,7 @@ steps = 50
         for old, new, words in (
             ('"-k/r"', '"-kk/r"', "problem.V: found \"-kk/r\", column 2"),
             ('"-k/r"', '"-k/x"', "problem.V: found"),
-            ('V = "-k/r"', "", "problem.V: missing; allowed a text"),
+            ('V = "-k/r"', "", "problem.V: missing; allowed a non-empty text"),
             ("{ k = 1.5 }", "{ k = 1.5, mass = 1 }", "problem.parameters.mass: found the name mass"),
             ("mass = 2", 'mass = 2\ncoordinates = "polarr"', "did you mean polar?"),
             ('"formula"', '"formulla"', "did you mean formula?"),

@@ -238,7 +238,7 @@ class Problems(CommandCase):
         cf = 'name="central-force"\n'
         for problem, words in (
             (cf + 'potential="power"\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.a", "missing")),
-            (cf + 'potential="power"\na=1\nn=-1\norbit={energy=1,angular_momentum=1}', ("problem.n", "but -1")),
+            (cf + 'potential="power"\na=1\nn=-1\norbit={energy=1,angular_momentum=1}', ("problem.n", "except -1")),
             (cf + 'potential="power"\na=[1,2]\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.n", "as in a, 2")),
             (cf + 'potential="kepler"\norbit={energy=-1,angular_momentum=1}', ("problem.orbit.energy", "exceeded by 0.5")),
             (cf + 'potential="kepler"\norbit={energy=1}', ("kind", "angular_momentum")),

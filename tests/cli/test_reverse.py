@@ -176,7 +176,7 @@ class Reverse(CommandCase):
         self.assertIn("run.dt: found 0.2", other)
         self.hamflow("reverse", "kepler.toml", *sets, "--force", "--set", "run.steps=300", "--quiet")
         more = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", "run.steps=301", status=2).stderr
-        self.assertIn("the 300 after which the momenta were negated", more)
+        self.assertIn("allowed with --resume 300, after which the momenta were negated", more)
         (self.folder / "r" / "reversal.bin").unlink()
         self.assertIn("no reversal.bin", self.hamflow("reverse", "kepler.toml", *sets, "--resume", status=3).stderr)
         self.assertIn("--force", self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--force", status=2).stderr)

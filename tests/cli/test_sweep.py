@@ -87,7 +87,7 @@ section = { expression = "1/x", direction = 0 }
                 self.assertIn("were not zeros", single["section"]["message"])
                 self.assertEqual(row["section"], single["section"])
                 self.assertEqual(row.get("event_notes"), single.get("event_notes"))
-        self.assertIn("no zero", rows[0]["event_notes"][0])
+        self.assertIn("not a zero", rows[0]["event_notes"][0])
 
     def test_what_ended_a_member_has_the_digits_of_its_run(self):
         self.write("o.toml", """

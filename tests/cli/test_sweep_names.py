@@ -271,7 +271,7 @@ class SweepNames(CommandCase):
         text = text.replace("[0, 0.5], p = [1, 2]", "[1, 0], p = [0, 0.3]")
         self.write("s.toml", text)
         done = self.hamflow("sweep", "s.toml", "--vary", "run.dt=0.2,0.201", "--out", "none")
-        self.assertIn("energy_error: the energy of 2 of 2 members", done.stderr)
+        self.assertIn("energy_error: the energy error of 2 of 2 members", done.stderr)
 
     def test_what_is_not_common_is_no_attribute(self):
         self.write("s.toml", HARMONIC)

@@ -168,7 +168,7 @@ class SweepResume(CommandCase):
         self.assertEqual(self.files("s"), before)
         # What is there is of no sweep that could go on.
         (self.folder / "s" / "members.bin").rename(self.folder / "kept.bin")
-        self.assertIn("but sweep.h5", self.hamflow(*words, *vary, "--resume", status=3).stderr)
+        self.assertIn("contains sweep.h5", self.hamflow(*words, *vary, "--resume", status=3).stderr)
         self.hamflow("run", "m.toml", "--set", "run.steps=100", "--out", "r")
         self.assertIn("found a run in r", self.hamflow("sweep", "m.toml", *vary, "--out", "r", "--resume", status=3).stderr)
         (self.folder / "b").mkdir()

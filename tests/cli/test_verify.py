@@ -93,7 +93,7 @@ class Verify(CommandCase):
                 continue
             self.assertIsNone(cell["agrees"], cell)
             self.assertIn(cell["measured"], ("unclear", "-"))
-            self.assertIn("a step", cell["reason"])
+            self.assertRegex(cell["reason"], "a step failed|steps failed")
         for measurement in method["measurements"]:
             self.assertIsNone(measurement["order"]["slope"])
             self.assertIn("a step failed with 13 of 13 step sizes", measurement["order"]["reason"])
@@ -127,7 +127,7 @@ class Verify(CommandCase):
         self.assertEqual((energy["claimed"], energy["measured"], energy["agrees"]), ("no", "no", True))
         (measurement,) = method["measurements"]
         self.assertEqual((measurement["energy"]["drift"], measurement["energy"]["level"]), ("linear", None))
-        self.assertIn("finite numbers", measurement["energy"]["reason"])
+        self.assertIn("not finite", measurement["energy"]["reason"])
         (ellipse,) = [m for m in method["certificate"]["momentum_maps"] if m["problem"] == "central-force"]
         self.assertEqual(ellipse["conserved"], "undecided")
         self.assertIn("the state was no longer finite after step 8023 of 20000", ellipse["reason"])

@@ -93,7 +93,7 @@ class Wrong(FormulaCase):
 
     def test_velocities_of_an_h_that_is_linear_in_p(self):
         text = HENON.replace("(p_x^2 + p_y^2)/2 + (x^2", "p_x + p_y + (x^2").replace("p = [", "v = [").replace("stv4", "cg")
-        self.assertIn("velocities do not determine the momenta, because the mass matrix is singular", self.errors(text)[1])
+        self.assertIn("velocities do not determine the momenta: the mass matrix is singular", self.errors(text)[1])
 
     CENTRAL = """[problem]
 name = "central-force"

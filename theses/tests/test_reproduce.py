@@ -398,7 +398,7 @@ class Reproduce(MemoryCase):
         self.assertEqual([e["message"].split(";")[0] for e in json.loads(done.stdout)["errors"]],
                          ["found experiment foo", "found experiment bar"])
         self.assertFalse((pathlib.Path(self.folder) / "none").exists())
-        self.assertRegex(self.reproduce("--help").stdout, r"--threads N +how many, 0: all cores")
+        self.assertRegex(self.reproduce("--help").stdout, r"--threads N +number of threads; 0 means all cores")
 
     def test_a_folder_has_one_writer(self):
         long = subprocess.Popen([HAMFLOW, "reproduce", "all", "--out", "r"], cwd=self.folder, stdout=subprocess.DEVNULL,

@@ -38,8 +38,7 @@ struct Cg {
         .advice =
             [](std::size_t) {
               return MethodAdvice{.purpose =
-                                      "any twice differentiable H; with quadrature auto the energy error stays at "
-                                      "rounding level for any dt",
+                                      "any twice differentiable H; the energy error is at rounding level for any dt",
                                   .take = "H is not T(p) + V(q), the energy must be exact, or the motion is stiff",
                                   .avoid =
                                       "many cheap steps are enough for H = T(p) + V(q): verlet, kahan-li8; the run "
