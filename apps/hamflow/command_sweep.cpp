@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "guarded.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "progress.hpp"
@@ -18,12 +19,36 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path folder_for(const SweepCommandOptions& options) {
+  if (!options.merge.empty()) return options.merge;
   if (!options.out.empty()) return options.out;
   return fs::path(options.scenario).stem().string() + ".sweep";
 }
 
-/// Refuses options that exclude each other.
+/// Refuses options that exclude each other, and a sweep without a scenario.
 void check_together(const SweepCommandOptions& options) {
+  if (!options.merge.empty()) {
+    const std::pair<const char*, bool> others[] = {{"a scenario", !options.scenario.empty()},
+                                                   {"--vary", !options.varied.empty()},
+                                                   {"--set", !options.sets.empty()},
+                                                   {"--zip", options.zip},
+                                                   {"--out", !options.out.empty()},
+                                                   {"--shard", !options.shard.empty()},
+                                                   {"--resume", options.resume},
+                                                   {"--force", options.force}};
+    for (const auto& [name, is_given] : others) {
+      if (!is_given) continue;
+      throw Rejection("--merge",
+                      fmt::format("found --merge with {}; allowed --merge DIR alone, since the shards in DIR "
+                                  "store their scenario",
+                                  name));
+    }
+    return;
+  }
+  if (options.scenario.empty()) throw Rejection("scenario", "missing; allowed a TOML file, or --merge DIR");
+  if (!options.shard.empty() && options.out == "none")
+    throw Rejection("--shard", "found --shard with --out none; allowed with a folder, which --merge reads");
+  if (!options.shard.empty() && !options.figure.empty())
+    throw Rejection("--figure", "found --figure with --shard; allowed with --merge DIR, when the shards are finished");
   if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
   if (options.resume && options.out == "none")
     throw Rejection("--resume", "found --resume with --out none; allowed with a folder");
@@ -31,7 +56,8 @@ void check_together(const SweepCommandOptions& options) {
 
 void open_folder(ScenarioSweep& sweep, const SweepCommandOptions& options) {
   const std::size_t told = sweep.notes().size();
-  const Existing existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
+  const bool resumes = options.resume || !options.merge.empty();
+  const Existing existing = resumes ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
   const std::vector<Complaint> wrong = sweep.keep_in(folder_for(options), existing);
   if (!wrong.empty()) throw Rejection(wrong);
   print_notes({sweep.notes().begin() + static_cast<std::ptrdiff_t>(told), sweep.notes().end()}, options.quiet);
@@ -62,6 +88,25 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
     print_error(failure, &failure == &report.failures.back() ? report.hint : "");
 }
 
+void print_missing(const ScenarioSweep& sweep, const SweepCommandOptions& options) {
+  const std::vector<std::string> missing = sweep.missing_shards();
+  if (missing.empty()) return;
+  print_notes({"members are missing of the shards " + joined(missing) +
+               "; run these with --resume, or all missing members with --resume and without --shard"},
+              options.quiet);
+}
+
+SweepRequest request_of(const SweepCommandOptions& options) {
+  return {.text = scenario_text(options.scenario),
+          .name = options.scenario,
+          .sets = options.sets,
+          .varied = options.varied,
+          .zip = options.zip,
+          .threads = options.threads,
+          .lanes = options.lanes,
+          .shard = options.shard.empty() ? SweepShard() : shard_named(options.shard)};
+}
+
 /// Refuses options of a figure, because no figure was asked for.
 void refuse_colour(const std::string& colour, bool mean) {
   if (mean) throw Rejection("--mean", "found --mean without --figure; allowed with --figure FILE");
@@ -76,13 +121,8 @@ int sweep_command(const SweepCommandOptions& options) {
     check_together(options);
     catch_interrupts();
     std::optional<Preparation> preparation(std::in_place, "setting up the sweep", options.json, options.quiet);
-    ScenarioSweep sweep({.text = scenario_text(options.scenario),
-                         .name = options.scenario,
-                         .sets = options.sets,
-                         .varied = options.varied,
-                         .zip = options.zip,
-                         .threads = options.threads,
-                         .lanes = options.lanes});
+    const bool merges = !options.merge.empty();
+    ScenarioSweep sweep(merges ? stored_sweep(options.merge) : request_of(options));
     print_notes(sweep.notes(), options.quiet);
     if (!sweep.complaints().empty()) throw Rejection(sweep.complaints());
     const bool draws = !options.figure.empty();
@@ -97,9 +137,10 @@ int sweep_command(const SweepCommandOptions& options) {
       open_folder(sweep, options);
       kept.folder = folder_for(options);
     }
-    const SweepReport report = carry_out(sweep, options, preparation);
+    const SweepReport report = merges ? sweep.report() : carry_out(sweep, options, preparation);
     preparation.reset();
     print(sweep, report, writes, options);
+    if (merges) print_missing(sweep, options);
     if (!draws || report.status == "failed") return exit_status(report.status);
     const int drawn = write_after_report([&] { sweep.draw(options.figure, options.colour, options.mean); });
     return drawn != exit_done ? drawn : exit_status(report.status);

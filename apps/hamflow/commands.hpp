@@ -36,6 +36,8 @@ struct SweepCommandOptions {
   std::string figure;  // a file; empty: none
   std::string colour;  // a column; empty: the Poincare section if the run has one, else energy/max_error
   bool mean = false;   // draw means of the columns over all varied keys except the first
+  std::string shard;   // INDEX/COUNT or "auto"; empty: all members
+  std::string merge;   // the folder of a sweep in shards; empty: none
 };
 int sweep_command(const SweepCommandOptions& options);
 

@@ -110,14 +110,14 @@ int main(int argc, char** argv) {
       "'problem.initial.p[1]=sqrt(1/problem.initial.q[0])'\n"
       "  hamflow sweep kepler.toml --vary method.name=verlet,stv4,yoshida6 --vary run.dt=0.1,0.05,0.025 --json "
       "--out none\n");
-  sweep_command->add_option("scenario", sweep.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
+  sweep_command->add_option("scenario", sweep.scenario, "the scenario, a TOML file [required without --merge]")
+      ->type_name("FILE");
   sweep_command
       ->add_option(
           "--vary", sweep.varied,
           "a key and its values: PATH=a:b:n (n values from a to b), PATH=v1,v2,..., or PATH=FORMULA, a formula of "
           "other varied keys, named by their paths; several --vary give every combination, the last one varies "
-          "fastest")
-      ->required()
+          "fastest [required without --merge]")
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false);
   sweep_command->add_flag("--zip", sweep.zip, "combine the n-th values of all keys, not every value with every other");
@@ -126,6 +126,15 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   sweep_command
       ->add_option("--out", sweep.out, "output folder [FILE without .toml, plus .sweep]; \"none\" writes nothing")
+      ->type_name("DIR");
+  sweep_command
+      ->add_option("--shard", sweep.shard,
+                   "run only the members k with k mod COUNT = INDEX, in a folder of its own within --out; auto: the "
+                   "numbers come from Slurm, Open MPI or PMI")
+      ->type_name("INDEX/COUNT");
+  sweep_command
+      ->add_option("--merge", sweep.merge,
+                   "write the table of a sweep whose shards are in DIR; members that are not finished are not_run")
       ->type_name("DIR");
   sweep_command->add_option("--threads", sweep.threads, "number of threads, 0: all cores; does not change results")
       ->type_name("N")

@@ -160,7 +160,7 @@ def _varied(key: str, values: Any) -> str:
 
 def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, threads: int | None = None,  # noqa: A002
           out: str | os.PathLike[str] | None = None, existing: str = "error",
-          progress: bool | Progress | None = None, client: Any = None) -> Sweep:
+          progress: bool | Progress | None = None, client: Any = None, shard: str | None = None) -> Sweep:
     """Runs a scenario for many values of some of its keys, in SIMD lanes and on all cores.
 
     Parameters
@@ -182,6 +182,10 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     client : dask.distributed.Client, optional
         Runs the members on the workers of a Dask cluster, where `import hamflow` has to give the same version. The
         bits do not depend on it, and `threads` is not used.
+    shard : str, optional
+        "3/64": run only the members k with k mod 64 = 3, in a folder of their own within `out`, which is needed. "auto"
+        takes the numbers from Slurm, Open MPI or PMI. Afterwards the same call without `shard`, with
+        existing="resume", reads what all shards have finished, runs the rest and writes the table.
 
     Raises
     ------
@@ -201,6 +205,9 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     wanted = scenario_of(scenario)
     if not isinstance(varied, Mapping):
         raise TypeError(f"varied: found {type(varied).__name__}; allowed a dict of keys and their values")
+    if shard is not None and (out is None or client is not None):
+        raise Error(f"shard: found {shard!r} {'without out' if out is None else 'with client'}; "
+                    "allowed with out, and without client")
     if client is not None and not hasattr(client, "nthreads"):
         raise TypeError(f"client: found {type(client).__name__}; allowed a dask.distributed.Client")
     if client is not None:
@@ -208,8 +215,8 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
                            existing, progress)
     try:
         asked = [_varied(key, values) for key, values in varied.items()]
-        found = _core.sweep(str(wanted), asked, zip, threads or 0, Path(out) if out is not None else "", existing,
-                            progress_of_both(progress))
+        found = _core.sweep(str(wanted), asked, zip, threads or 0, shard or "", Path(out) if out is not None else "",
+                            existing, progress_of_both(progress))
     except KeyboardInterrupt as error:  # while members were read
         raise stopped(error, None) from None
     result = Sweep(found)

@@ -66,17 +66,19 @@ py::dict found_of(const ScenarioSweep& sweep, const SweepReport& report, const p
 }
 
 py::dict sweep_in_python(const std::string& text, const std::vector<std::string>& varied, bool zip, int threads,
-                         const std::filesystem::path& folder, const std::string& existing,
+                         const std::string& shard, const std::filesystem::path& folder, const std::string& existing,
                          const std::function<void(std::int64_t, std::int64_t)>& progress) {
   const Existing what_to_do = existing_named(existing);
+  const SweepShard part = shard.empty() ? SweepShard() : shard_named(shard);
   std::unique_ptr<ScenarioSweep> sweep;
   SweepReport report;
   py::object interrupted = py::none();
   std::int64_t total = 0;
   {
     const py::gil_scoped_release unlocked;
-    sweep = checked_sweep({.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads}, folder,
-                          what_to_do);
+    sweep = checked_sweep(
+        {.text = text, .name = "scenario", .varied = varied, .zip = zip, .threads = threads, .shard = part}, folder,
+        what_to_do);
     total = sweep->total_steps();
     Interrupts asked([&](std::int64_t steps) {
       if (progress) progress(steps, total);
@@ -147,7 +149,7 @@ class GatheredSweep {
 
 void bind_sweep(py::module_& m) {
   m.def("sweep", &sweep_in_python, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("threads"),
-        py::arg("folder"), py::arg("existing"), py::arg("progress"));
+        py::arg("shard"), py::arg("folder"), py::arg("existing"), py::arg("progress"));
   m.def("varied_text", &varied_text, py::arg("key"), py::arg("values"));
   m.def("sweep_shard", &sweep_shard, py::arg("text"), py::arg("varied"), py::arg("zip"), py::arg("index"),
         py::arg("count"));

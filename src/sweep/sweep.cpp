@@ -24,8 +24,11 @@ void Sweep::restore(std::size_t member, MemberRow row) {
 }
 
 std::size_t Sweep::members_left() const {
-  return static_cast<std::size_t>(
-      std::count_if(rows_.begin(), rows_.end(), [](const MemberRow& row) { return !row.is_finished(); }));
+  std::size_t left = 0;
+  for (std::size_t member = options_.shard.index; member < rows_.size(); member += options_.shard.count) {
+    if (!rows_[member].is_finished()) ++left;
+  }
+  return left;
 }
 
 void Sweep::put(std::size_t member, MemberRow row) {

@@ -150,7 +150,12 @@ class Sweep {
   std::int64_t steps_before() const { return steps_before_; }
   /// Whether a member is one of the shard's.
   bool is_own(std::size_t member) const { return member % options_.shard.count == options_.shard.index; }
-  /// Members that are still to be run.
+  const SweepShard& shard() const { return options_.shard; }
+  /// Number of members of the shard.
+  std::size_t own_members() const {
+    return (members() + options_.shard.count - 1 - options_.shard.index) / options_.shard.count;
+  }
+  /// Number of members of the shard that are not finished.
   std::size_t members_left() const;
 
   /// Runs all members that are not finished. Rows change meanwhile; use hold_rows() to read them.

@@ -18,7 +18,7 @@ namespace {
 // The file has these words, then parts: the header, then records. A part is its length, its bytes, and the hash of
 // both.
 constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP"; it also shows the byte order
-constexpr std::uint64_t format = 3;
+constexpr std::uint64_t format = 4;
 constexpr std::size_t word = sizeof(std::uint64_t);
 
 template <class... T>

@@ -21,10 +21,15 @@ struct SweepHead {
   std::vector<std::string> values;
   std::vector<std::string> varied;  // PATH=VALUES as they were typed
   bool in_step = false;
+  std::uint64_t functions = 0;  // hash of elementary functions of this machine, on which bits can depend
+  // The request, from which the sweep can be set up again.
+  std::string text;
+  std::string name;
+  std::vector<std::string> sets;
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(version, keys, values, varied, in_step);
+    ar(version, keys, values, varied, in_step, functions, text, name, sets);
   }
 };
 

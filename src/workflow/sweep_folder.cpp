@@ -8,6 +8,7 @@
 #include "hamflow/detail/core/option_names.hpp"
 #include "resume.hpp"
 #include "run_description.hpp"
+#include "sweep_shards.hpp"
 #include "sweep_table.hpp"
 
 namespace hamflow {
@@ -15,8 +16,6 @@ namespace hamflow {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* journal_name = "members.bin";
-
 /// The differences from the sweep in the folder that forbid resuming.
 std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
@@ -35,6 +34,12 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
     if (found != allowed) complain(option_name("vary"), found, allowed);
   }
   const auto name = [](bool in_step) { return (in_step ? "" : "no ") + option_name("zip"); };
+  if (now.functions != before.functions) {
+    all.push_back({"", 0, 0, option_name("resume"),
+                   "found members computed on a machine whose C library gives other last bits of sin, exp and others; "
+                   "allowed members of machines that agree with this one" +
+                       advice_to_overwrite()});
+  }
   if (now.in_step != before.in_step) complain(option_name("zip"), name(now.in_step), name(before.in_step));
   return all;
 }
@@ -47,27 +52,67 @@ SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
           .keys = of_scenario.keys,
           .values = of_scenario.values,
           .varied = request.varied,
-          .in_step = request.zip};
+          .in_step = request.zip,
+          .functions = functions_of_this_machine(),
+          .text = request.text,
+          .name = request.name,
+          .sets = request.sets};
 }
 
 SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path folder, Existing existing)
-    : sweep_(sweep), folder_(std::move(folder), sweep_folder(), existing) {
+    : sweep_(sweep), folder_(folder_of(request.shard, folder), sweep_folder(), existing) {
   SweepPast past;
   past.head = head_of(sweep, request);
-  if (!folder_.note().empty()) notes_.push_back(folder_.note());
+  if (existing == Existing::replace && request.shard.count == 1 && !shard_journals(folder).empty()) {
+    throw FileError("found shards of a sweep in " + folder.string() + ", which " + option_name("force") +
+                    " does not replace; remove them, or give another " + option_name("out"));
+  }
   if (folder_.resumes()) {
-    SweepPast found = read_journal(folder_ / journal_name);
+    SweepPast found = read_journal(folder_ / members_file);
     wrong_ = differences_of(sweep, past.head, found.head);
     if (!wrong_.empty()) return;
     past.members = std::move(found.members);
     restore(past);
-    folder_.remove("summary.json");  // belongs to the part before
   }
+  if (existing == Existing::resume) take_others(past.head, folder);
+  if (!wrong_.empty()) return;
+  note_progress();
+  if (request.shard.count == 1) {  // the journal of the whole sweep is the union of all
+    for (std::size_t member = 0; member < sweep_.members(); ++member) {
+      const MemberRow& row = sweep_.rows()[member];
+      if (row.is_finished())
+        past.members.try_emplace(member, FinishedMember{sweep_.steps_of(member), seconds_before_, row});
+    }
+  }
+  if (folder_.resumes()) folder_.remove("summary.json");  // belongs to the part before
   folder_.prepare(sweep_.common());
-  journal_.emplace(folder_ / journal_name, past);
+  journal_.emplace(folder_ / members_file, past);
 }
 
-/// Restores finished members. Those that were finished with another number of steps are run again from the start.
+/// Restores members that are finished in other journals of the sweep, of other shards or of the whole.
+void SweepFolder::take_others(const SweepHead& head, const fs::path& whole) {
+  std::vector<fs::path> journals = shard_journals(whole);
+  journals.push_back(whole / members_file);
+  for (const fs::path& file : journals) {
+    if (file == folder_ / members_file || !fs::exists(file)) continue;
+    SweepPast found = read_journal(file);
+    if (!differences_of(sweep_, head, found.head).empty()) {
+      throw FileError(file.string() +
+                      " belongs to another sweep; allowed shards of one scenario with the same varied "
+                      "keys, computed by one version of hamflow");
+    }
+    for (auto& [member, finished] : found.members) {
+      if (member >= sweep_.members()) throw FileError(file.string() + " belongs to another sweep");
+      const bool is_new = sweep_.is_own(member) && !sweep_.rows()[member].is_finished();
+      if (!is_new || finished.steps != sweep_.steps_of(member)) continue;
+      seconds_before_ = std::max(seconds_before_, finished.seconds);
+      sweep_.restore(member, std::move(finished.row));
+    }
+  }
+}
+
+/// Restores finished members of this folder's journal. Those that were finished with another number of steps are run
+/// again from the start.
 void SweepFolder::restore(SweepPast& past) {
   std::size_t shorter = 0;
   for (const auto& [member, finished] : past.members) {
@@ -80,10 +125,17 @@ void SweepFolder::restore(SweepPast& past) {
   if (shorter > 0) {
     notes_.push_back(fmt::format("{} members had another number of steps; they are run again", shorter));
   }
-  if (const std::size_t left = sweep_.members_left(); left == 0) {
+}
+
+void SweepFolder::note_progress() {
+  const std::size_t left = sweep_.members_left();
+  if (!folder_.resumes() && left == sweep_.own_members()) {
+    if (!folder_.note().empty()) notes_.push_back(folder_.note());
+  } else if (left == 0) {
     notes_.emplace_back("the sweep is complete already; there is nothing to do");
   } else {
-    notes_.push_back(fmt::format("{} of {} members are finished already", sweep_.members() - left, sweep_.members()));
+    notes_.push_back(
+        fmt::format("{} of {} members are finished already", sweep_.own_members() - left, sweep_.own_members()));
   }
 }
 
@@ -101,6 +153,7 @@ void SweepFolder::save_if_due() {
   if (failed_ || !is_behind_ || now - last_ < pause_) return;
   is_behind_ = false;
   try {
+    if (sweep_.shard().count > 1) return journal_->force();
     auto hold = sweep_.hold_rows();
     const SweepTables tables = tables_of(sweep_);
     hold.unlock();
@@ -123,7 +176,11 @@ void SweepFolder::write_table(const SweepTables& tables) const {
 }
 
 void SweepFolder::save(const std::string& summary) {
-  write_table(tables_of(sweep_));
+  if (sweep_.shard().count == 1) {
+    write_table(tables_of(sweep_));
+  } else {
+    journal_->force();  // the table is written when all shards are merged
+  }
   folder_.write("summary.json", summary);
 }
 

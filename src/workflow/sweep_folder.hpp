@@ -20,11 +20,13 @@ SweepHead head_of(const Sweep& sweep, const SweepRequest& request);
 
 class SweepFolder {
  public:
-  /// Makes the folder. With Existing::resume it restores the finished members; if wrong() is not empty, the sweep
-  /// cannot be resumed and no file was touched.   @throws FileError
+  /// Makes the folder; a shard has a folder of its own in it. With Existing::resume it restores the members that are
+  /// finished in any journal of the sweep; if wrong() is not empty, the sweep cannot be resumed and no file was
+  /// touched.   @throws FileError
   SweepFolder(Sweep& sweep, const SweepRequest& request, std::filesystem::path folder, Existing existing);
   const std::vector<Complaint>& wrong() const { return wrong_; }
   const std::vector<std::string>& notes() const { return notes_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
 
   /// Wall time of all parts of the sweep together.
   double seconds() const;
@@ -41,6 +43,8 @@ class SweepFolder {
  private:
   using Clock = std::chrono::steady_clock;
   void restore(SweepPast& past);
+  void take_others(const SweepHead& head, const std::filesystem::path& whole);
+  void note_progress();
   void write_table(const SweepTables& tables) const;
 
   Sweep& sweep_;

@@ -154,9 +154,10 @@ SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted,
   std::int64_t steps = 0;
   for (const MemberRow& row : sweep.rows()) steps += row.steps;
   SweepSummary s;
-  s.members = sweep.members();
+  s.members = sweep.own_members();
+  if (sweep.shard().count > 1) s.shard = fmt::format("{}/{}", sweep.shard().index, sweep.shard().count);
   s.done = count(sweep, Outcome::done);
-  s.unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
+  s.unfinished = sweep.members_left();
   s.failed = s.members - s.done - s.unfinished;
   s.no_start = count_without_start(sweep);
   s.status = interrupted && s.unfinished > 0 ? "interrupted" : s.done == 0 ? "failed" : "done";
@@ -237,6 +238,7 @@ std::string sweep_json(const SweepSummary& x, bool with_rows) {
   JsonWriter ar;
   ar("status", x.status, "problem", x.problem, "arithmetic", x.arithmetic, "members", x.members, "done", x.done,
      "failed", x.failed, "unfinished", x.unfinished);
+  ar.if_any("shard", x.shard);
   if (x.no_start > 0) ar("no_start", x.no_start);
   ar("varied", x.varied, "wall_seconds", x.wall_seconds, "member_steps_per_second", x.member_steps_per_second,
      "members_per_second", x.members_per_second, "instruction_set", x.instruction_set, "lanes", x.lanes,
@@ -256,6 +258,7 @@ std::string sweep_text(const SweepSummary& s) {
   };
   line("status", s.status);
   line("members", fmt::format("{} ({} done, {} failed, {} unfinished)", s.members, s.done, s.failed, s.unfinished));
+  if (!s.shard.empty()) line("shard", s.shard);
   if (s.no_start > 0) {
     line("no start",
          fmt::format("{} of the failed members: no start has the given energy, or a formula has no value", s.no_start));

@@ -12,6 +12,7 @@
 #include "sweep_figure.hpp"
 #include "sweep_folder.hpp"
 #include "sweep_report.hpp"
+#include "sweep_shards.hpp"
 #include "sweep_table.hpp"
 #include "toml_path.hpp"
 #include "warnings.hpp"
@@ -272,6 +273,13 @@ std::vector<Complaint> ScenarioSweep::keep_in(const fs::path& folder, Existing e
   const std::vector<std::string>& notes = impl_->folder->notes();
   impl_->notes.insert(impl_->notes.end(), notes.begin(), notes.end());
   return impl_->folder->wrong();
+}
+
+std::vector<std::string> ScenarioSweep::missing_shards() const {
+  if (!impl_->folder) return {};
+  std::vector<bool> is_finished;
+  for (const MemberRow& row : impl_->sweep->rows()) is_finished.push_back(row.is_finished());
+  return hamflow::missing_shards(impl_->folder->path(), is_finished);
 }
 
 Table ScenarioSweep::members() const { return members_of(*impl_->sweep); }

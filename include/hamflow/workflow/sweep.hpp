@@ -41,6 +41,13 @@ struct SweepReport {
   std::string text;                   // sweep_text(summary)
 };
 
+/// "3/64" or "auto": the number of this process among all of a job, from the variables of Slurm, Open MPI or PMI.
+/// @throws Rejection
+SweepShard shard_named(const std::string& text);
+/// The request of the sweep that is stored in a folder, by a process or by shards. With ScenarioSweep::keep_in and
+/// Existing::resume it merges what all shards have finished.   @throws FileError
+SweepRequest stored_sweep(const std::filesystem::path& folder);
+
 class ScenarioSweep {
  public:
   /// Reads and checks every member. Errors are in complaints(); if there is one, the sweep cannot run.
@@ -58,6 +65,8 @@ class ScenarioSweep {
   /// first are drawn
   /// @throws Rejection if the file's name, the varied keys or the column are wrong
   void check_figure(const std::filesystem::path& file, const std::string& column, bool mean = false) const;
+  /// The shards that have members which are not finished, "3/64" each; empty if there are no shards in the folder.
+  std::vector<std::string> missing_shards() const;
   /// Number of steps of all members together.
   std::int64_t total_steps() const;
   /// Number of steps of the members that were finished before.
@@ -67,6 +76,8 @@ class ScenarioSweep {
   /// and the checkpoint members.bin. With Existing::resume, members that are finished there are not run again, and the
   /// table is bit for bit the one of a sweep without interruption; the scenario may differ only in keys that may change
   /// when a run is resumed. Call it once, before run(). The folder stays locked while this object exists.
+  /// A shard uses a folder of its own in it, without a table; with Existing::resume it does not run again what another
+  /// shard has finished. The whole sweep then takes what all shards have finished.
   /// @return errors that forbid resuming; then no file was touched and the sweep cannot run
   /// @throws FileError if the folder exists and must not be used, belongs to a run or a comparison, or cannot be made
   [[nodiscard]] std::vector<Complaint> keep_in(const std::filesystem::path& folder, Existing existing);

@@ -37,13 +37,13 @@ struct Cg {
         .needs = [](std::size_t) { return "a twice differentiable H"; },
         .advice =
             [](std::size_t) {
-              return MethodAdvice{.purpose =
-                                      "any twice differentiable H; the energy error is at rounding level for any dt",
-                                  .take = "H is not T(p) + V(q), the energy must be exact, or the motion is stiff",
-                                  .avoid =
-                                      "many cheap steps are enough for H = T(p) + V(q): verlet, kahan-li8; the run "
-                                      "must reverse bit for bit (lattice): stv4; the angular momentum in Cartesian "
-                                      "coordinates must be conserved: verlet"};
+              return MethodAdvice{
+                  .purpose = "any twice differentiable H; the energy error is at rounding level for any dt",
+                  .take = "H is not T(p) + V(q), the energy must be exact, or the motion is stiff",
+                  .avoid =
+                      "many cheap steps are enough for H = T(p) + V(q): verlet, kahan-li8; the run "
+                      "must reverse bit for bit (lattice): stv4; the angular momentum in Cartesian "
+                      "coordinates must be conserved: verlet"};
             },
         .refused = refused,
         .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};

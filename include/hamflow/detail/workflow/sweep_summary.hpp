@@ -60,7 +60,8 @@ struct SweepSummary {
   // Of all members; none: the key is varied.
   std::optional<std::string> problem;
   std::optional<std::string> arithmetic;
-  std::size_t members = 0;
+  std::size_t members = 0;  // of the shard, if the sweep has shards
+  std::string shard{};      // "3/64"; empty: the whole sweep
   std::size_t done = 0;
   std::size_t failed = 0;
   std::size_t unfinished = 0;
