@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* journal_name = "members.bin";
 
-/// The differences from the sweep in the folder that forbid resuming.
+/// Returns the differences from the sweep in the folder that forbid resuming.
 std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
   began.version = before.version;
@@ -61,13 +61,13 @@ SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path fol
     if (!wrong_.empty()) return;
     past.members = std::move(found.members);
     restore(past);
-    folder_.remove("summary.json");  // belongs to the part before
+    folder_.remove("summary.json");  // belongs to the previous part
   }
   folder_.prepare(sweep_.common());
   journal_.emplace(folder_ / journal_name, past);
 }
 
-/// Restores finished members. Those that were finished with another number of steps are run again from the start.
+/// Restores finished members. Members that finished with another number of steps are run again from the start.
 void SweepFolder::restore(SweepPast& past) {
   std::size_t shorter = 0;
   for (const auto& [member, finished] : past.members) {
@@ -105,7 +105,7 @@ void SweepFolder::save_if_due() {
     const SweepTables tables = tables_of(sweep_);
     hold.unlock();
     write_table(tables);
-  } catch (const std::exception&) {  // e.g. a full disk or too little memory; the sweep itself continues
+  } catch (const std::exception&) {  // for example a full disk or too little memory; the sweep itself continues
     failed_ = true;
   }
   last_ = Clock::now();
