@@ -63,7 +63,7 @@ struct FigureData : FigureSamples {
   FigureSamples first_steps{};
   // time at the end of the run; NaN: the time of its last sample
   double end = std::numeric_limits<double>::quiet_NaN();
-  bool every_step = false;                                // every step is a sample, so nothing is known in between
+  bool every_step = false;  // every step is a sample, so nothing is known in between
   /// t and q of the samples, with the located bounces between them, where a line has corners; empty if there are no
   /// bounces.
   FigureSamples path{};

@@ -1,5 +1,5 @@
-// One kind of figure. A file in kinds/, for example energy_error.cpp, defines `energy_error_figure`. Its functions are in
-// a namespace `energy_error`, because several files may be compiled as one.
+// One kind of figure. A file in kinds/, for example energy_error.cpp, defines `energy_error_figure`. Its functions are
+// in a namespace `energy_error`, because several files may be compiled as one.
 #pragma once
 
 #include <string>

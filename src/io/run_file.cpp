@@ -14,12 +14,12 @@ namespace hamflow {
 
 namespace {
 
-constexpr std::size_t batch_rows = 8192;                       // rows for each write call: 35 ns a row instead of 25 us
+constexpr std::size_t batch_rows = 8192;  // rows for each write call: 35 ns a row instead of 25 us
 // bytes for each write call; limits the rows of large systems
 constexpr std::size_t batch_bytes = std::size_t{1} << 23;
 // written rows stay in memory up to this size, because figures are drawn from them
 constexpr std::size_t bytes_in_memory = std::size_t{1} << 24;
-constexpr double flush_seconds = 0.25;                         // a crash loses at most the rows of this time
+constexpr double flush_seconds = 0.25;  // a crash loses at most the rows of this time
 using Clock = std::chrono::steady_clock;
 
 std::string now_utc() {

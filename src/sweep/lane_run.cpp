@@ -133,7 +133,7 @@ void LaneRun::look_for_sections() {
     if (search.is_long() || hides) {
       block_.show(lane, frame_);
       search.locate_all(block_.before_step(lane), before, frame_, now);
-    // the same condition as in SectionFinder
+      // the same condition as in SectionFinder
     } else if (search.crosses(before, now) || std::isnan(before) != std::isnan(now)) {
       search.locate(block_.before_step(lane), before, now);
     }

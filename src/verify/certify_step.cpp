@@ -28,8 +28,8 @@ constexpr double exact_to_rounding = 0x1p-44;     // 256 roundings; an adaptive 
 constexpr double told_from_rounding = 1024;       // an error of the method has to be this many times the rounding error
 // a defect above this fraction of the error belongs to the method, not to its solver
 constexpr double part_of_the_error = 0x1p-10;
-constexpr double most_error = 0.3;                // of scaled states; a step with a larger error shows nothing
-constexpr double smooth = 0.02;                   // an error with more noise comes from rounding or from a solver
+constexpr double most_error = 0.3;  // of scaled states; a step with a larger error shows nothing
+constexpr double smooth = 0.02;     // an error with more noise comes from rounding or from a solver
 constexpr const char* energy_name = "energy";
 
 /// Central differences of order 6 along one direction, from the two difference lengths that agree best.

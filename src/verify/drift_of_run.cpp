@@ -98,13 +98,13 @@ double sign_test(const std::vector<double>& x) {
 
 /// The straight line through a series, and statistics of the residuals.
 struct Trend {
-  double size = 0;       // change along the line over the whole series, divided by the deviation of the residuals
+  double size = 0;  // change along the line over the whole series, divided by the deviation of the residuals
   // Spearman's rank correlation with time, which does not depend on the height of rare excursions
   double rank = 0;
   double roughness = 0;  // S(1)/(2 variance) of the residuals: 1 for independent values, about 8/B for a random walk
   // of neighbouring increments of the residuals: -1/2 independent values, 0 random walk, 1 smooth
   double correlation = 0;
-  double wandering = 0;    // variation between the means of eight parts, see wandering()
+  double wandering = 0;  // variation between the means of eight parts, see wandering()
 };
 
 std::vector<double> ranks(const std::vector<double>& x) {

@@ -43,12 +43,12 @@ struct EnergyExchange {
 /// State of EnergyBlocks: the energy sampled once in each block, and the step of the next sample.
 struct EnergyBlockState {
   std::int64_t block_steps = 1;
-  std::int64_t next = 0;            // step of the next sample
-  std::vector<double> energies;     // one for each block, in order
+  std::int64_t next = 0;         // step of the next sample
+  std::vector<double> energies;  // one for each block, in order
   // the same energies with all digits, if the arithmetic has more digits than double; else empty
   std::vector<std::string> digits;
-  std::vector<double> magnitudes;   // largest sizes over the samples; observe() lists which
-  std::vector<Swings> swings;       // one for each q, then one for each p
+  std::vector<double> magnitudes;  // largest sizes over the samples; observe() lists which
+  std::vector<Swings> swings;      // one for each q, then one for each p
   EnergyExchange exchange{};
 
   template <class Archive>
@@ -129,10 +129,10 @@ bool depends_on_time(const ProblemEntry& problem);
 
 /// Parity of H in the momenta. If H is not even in the momenta, negating them does not reverse the exact motion either.
 struct MomentumParity {
-  bool is_even = true;          // H(q, -p) = H(q, p) to rounding
+  bool is_even = true;  // H(q, -p) = H(q, p) to rounding
   // the velocities are odd in p bit for bit, which a bit-exact reversal on the lattice needs
   bool to_the_last_bit = true;
-  bool is_defined = true;       // H has a value at (q, -p)
+  bool is_defined = true;  // H has a value at (q, -p)
 };
 /// Evaluates H at states of the motion and at nearby states in general position, because terms that are odd in p may
 /// vanish on the motion itself (for example the angular momentum in a rotating frame).
@@ -190,7 +190,8 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
 
 /// Compares the error of each invariant with the error that rounding explains. The terms that the problem declares for
 /// an invariant (InvariantInfo::terms) determine this rounding error.
-/// @param magnitudes EnergyBlockState::magnitudes   @param request gives the parameters and the grid spacing of a lattice
+/// @param magnitudes EnergyBlockState::magnitudes   @param request gives the parameters and the grid spacing of a
+/// lattice
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request);
 
@@ -200,8 +201,8 @@ struct RunCertificate {
   LongNumber mean_increment, mean_increment_error;  // increment of the energy over a block, and its standard error
   // largest drift that is not excluded: energy divided by scale, per step
   LongNumber trend_not_excluded;
-  LongNumber energy_level;                          // max |H - H0|/scale over all steps; NaN: H is 0 at the start
-  std::optional<double> typically_exchanged{};      // EnergyExchange::typical()
+  LongNumber energy_level;                      // max |H - H0|/scale over all steps; NaN: H is 0 at the start
+  std::optional<double> typically_exchanged{};  // EnergyExchange::typical()
   std::vector<MomentumMap> momentum_maps;
   std::optional<ReversalEvidence> reversal;  // nullopt: no step was taken
 };

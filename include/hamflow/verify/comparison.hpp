@@ -48,8 +48,8 @@ struct ComparisonPoint {
   std::vector<std::pair<std::string, Magnitude>> differences;
   // the error is below the uncertainty of the reference, so only a bound is known
   bool below_uncertainty = false;
-  Magnitude max_energy_error;                // over every step, relative to the scale of the energy
-  Magnitude end_energy_error;                // energy error at the end, relative to the same scale
+  Magnitude max_energy_error;  // over every step, relative to the scale of the energy
+  Magnitude end_energy_error;  // energy error at the end, relative to the same scale
   // number of evaluations; taylor counts each coefficient of its series as one
   long long force = 0, gradient = 0;
   long long hessian = 0, linear_solves = 0;

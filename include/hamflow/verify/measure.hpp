@@ -67,8 +67,8 @@ struct DefectMeasurement {
 
 struct EnergyMeasurement {
   double step = 0;
-  double level = 0;       // max |H - H0|/scale over starts and blocks; NaN if a run ended early
-  double rounding = 0;    // level that rounding alone explains
+  double level = 0;     // max |H - H0|/scale over starts and blocks; NaN if a run ended early
+  double rounding = 0;  // level that rounding alone explains
   // the same with a 128 times smaller step, which shows rounding errors that a step divides by h
   double fine_level = 0;
   double fine_rounding = 0;

@@ -23,7 +23,7 @@ struct ReferenceSolution {
   std::vector<std::string> digits;  // the same with all digits
   // for each number, the size of its group along the motion (state_units.hpp); 1 if the size is 0
   State<double> sizes;
-  Magnitude uncertainty;            // uncertainty of the number whose relative uncertainty is largest
+  Magnitude uncertainty;  // uncertainty of the number whose relative uncertainty is largest
 };
 
 /// Returns the arithmetic of the reference for a run in `arithmetic`: double-double if the run has at most the digits
@@ -38,7 +38,8 @@ class ReferenceRun {
   /// Uses problem, start and arithmetic of the request. A run in double starts from numbers rounded to double, so the
   /// reference starts from the same rounded numbers. A run with more digits starts from the numbers of the scenario
   /// with all their digits, and so does its reference; the same holds for built-in numbers of a problem.
-  /// @param t_end the final time, a number expression   @param steps of the finest run; they determine the number of pieces
+  /// @param t_end the final time, a number expression   @param steps of the finest run; they determine the number of
+  /// pieces
   /// @throws Error if no reference method can integrate the problem
   ReferenceRun(const Request& request, const std::string& t_end, std::int64_t steps);
   ~ReferenceRun();

@@ -34,10 +34,10 @@ struct RunSettings {
 /// Result of a run. Some numbers of the summary are repeated here as the simulation returns them.
 struct RunReport {
   Summary summary;
-  std::string status;        // status of the summary: "done", "interrupted", "failed"
-  std::string message;       // after a failure: says what failed
-  std::string hint;          // after a failure: what can be tried
-  std::string details;       // iteration history of an implicit step without a solution
+  std::string status;   // status of the summary: "done", "interrupted", "failed"
+  std::string message;  // after a failure: says what failed
+  std::string hint;     // after a failure: what can be tried
+  std::string details;  // iteration history of an implicit step without a solution
   // explains why a file could not be written; empty: all files were written. The results here are valid in any case
   std::string file_trouble;
   std::vector<std::string> warnings{};  // each is "kind: message"

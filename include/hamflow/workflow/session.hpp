@@ -109,7 +109,7 @@ class Session final : public Simulation {
   std::vector<double> reference_;                       // values from which deviations are measured
   // corrects time-dependent invariants, because each part starts at t = 0
   std::vector<double> offset_;
-  std::vector<double> worst_invariants_;                // one for each invariant
+  std::vector<double> worst_invariants_;  // one for each invariant
   Frame scratch_;
   TurnWatch turns_{0, false};
 };

@@ -53,10 +53,10 @@ struct StateAtTime : StateSummary {
 
 /// Energy H(q, p). If H depends on t, it is H minus the work of the drive.
 struct EnergySummary {
-  LongNumber initial;                              // with all digits
-  LongNumber final;                                // the same
-  LongNumber max_error;                            // |H - H0| over every step
-  std::optional<double> scale;                     // max(|H0|, |T| + |V|, p dH/dp); nullopt: the problem is a map
+  LongNumber initial;           // with all digits
+  LongNumber final;             // the same
+  LongNumber max_error;         // |H - H0| over every step
+  std::optional<double> scale;  // max(|H0|, |T| + |V|, p dH/dp); nullopt: the problem is a map
   // max_error divided by the scale; nullopt: H is 0 at the start, or the problem is a map
   std::optional<LongNumber> max_relative_error{};
 };
@@ -205,7 +205,7 @@ struct Summary {
   std::optional<NewtonSummary> newton{};             // nullopt: the method is explicit
   // numbers of bounces for each wall, halved steps, and events "user:NAME"
   Named<std::int64_t> events{};
-  std::vector<std::string> event_notes{};            // remarks on these numbers
+  std::vector<std::string> event_notes{};  // remarks on these numbers
   std::optional<LyapunovSummary> lyapunov{};
   std::optional<EigenvalueSummary> eigenvalues{};
   std::optional<SectionSummary> section{};

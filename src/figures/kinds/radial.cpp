@@ -13,7 +13,7 @@ namespace hamflow::figures {
 
 namespace radial {
 constexpr std::size_t bins = 150;
-constexpr std::size_t fewest_free = 16;     // with fewer free particles, those at the border determine the volume
+constexpr std::size_t fewest_free = 16;  // with fewer free particles, those at the border determine the volume
 // particles used; pairs of a random part have the same distribution as all pairs
 constexpr std::size_t most_taken = 200000;
 

@@ -48,8 +48,8 @@ struct EnergySeries {
   double still = 0;
   // the method is symplectic with equal steps, so the energy has no drift [HLW2006, Thm. IX.8.1]
   bool symplectic = false;
-  bool bounces = false;             // the run bounces off walls, where the energy makes a random walk
-  bool copies = false;              // the method carries a copy of the state that may separate from the state
+  bool bounces = false;  // the run bounces off walls, where the energy makes a random walk
+  bool copies = false;   // the method carries a copy of the state that may separate from the state
   // rounding error of one energy: the rounding unit times the largest scale during the run
   double rounding = 0;
   bool rounding_grows = false;  // the rounding error grows with a coordinate that keeps growing

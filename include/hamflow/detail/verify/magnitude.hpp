@@ -8,8 +8,8 @@
 namespace hamflow {
 
 struct Magnitude {
-  double value = 0;                                            // 0 if below the range of double
-  double log10 = -std::numeric_limits<double>::infinity();     // correct also below the range of double
+  double value = 0;                                         // 0 if below the range of double
+  double log10 = -std::numeric_limits<double>::infinity();  // correct also below the range of double
   // for example "3.1416e-412", if below the range of double; else empty
   std::string text{};
   Magnitude(double x = 0) : value(x), log10(std::log10(x)) {}  // NOLINT: implicit conversion is intended

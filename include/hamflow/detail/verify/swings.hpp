@@ -53,14 +53,14 @@ class Swings {
   std::int64_t turns_ = 0;
   std::int64_t earlier_turns_ = 0;
   int direction_ = 0;
-  std::int64_t looked_ = 0;         // step of the last sample
-  std::int64_t apart_ = 0;          // distance of the last two samples, in steps
-  std::int64_t noticed_ = 0;        // sample at which the last turn was recognised
-  std::int64_t latest_turn_ = 0;    // last turn, including turns that are not used for the period
-  std::int64_t longest_gap_ = 0;    // longest time between turns
+  std::int64_t looked_ = 0;       // step of the last sample
+  std::int64_t apart_ = 0;        // distance of the last two samples, in steps
+  std::int64_t noticed_ = 0;      // sample at which the last turn was recognised
+  std::int64_t latest_turn_ = 0;  // last turn, including turns that are not used for the period
+  std::int64_t longest_gap_ = 0;  // longest time between turns
   // shortest time between the recognition of two turns, which is the duration of a peak
   std::int64_t shortest_stay_ = 0;
-  double later_turns_ = 0;          // turns that are not used for the period, including missed ones
+  double later_turns_ = 0;  // turns that are not used for the period, including missed ones
 };
 
 }  // namespace hamflow
