@@ -168,15 +168,19 @@ std::vector<double> sizes_of_invariants(const Request& request, const Frame& end
 /// with terms of size T by about epsilon T. n roundings make a random walk of sqrt(n) such changes, and evaluating the
 /// invariant adds a few roundings. The bound is 16 of each: the maximum of a walk over the whole run is rarely above
 /// four standard deviations, and in every operation two coordinates of a body, or two bodies, are rounded. The centre
-/// of mass also integrates the walk of the momentum over the time of the run. Angular momentum sums the roundings of
-/// all bodies, which are independent: a kick changes it by |q| |dp| with norms instead of sums. For 121 particles the
-/// sum of sizes is 13 times larger and could hide a drift of the method. So `conserved` means below four standard
-/// deviations of this walk: a rounding is at most half a unit, its standard deviation is 0.29 units, and four of them
-/// for q and p together are 1.6 sqrt(n); 2 times two units are used. Evaluating the invariant adds as many terms as
-/// there are coordinates, each at most of its own size. Between this bound and the sum of sizes the cause is undecided,
-/// rounding or method, because stages and iterations round more than once. The cause is also undecided if n roundings
-/// of one unit to the same side could explain the error. Such roundings occur: a free body moves by the same number in
-/// every step, and is rounded to the same side until its exponent changes.
+/// of mass also integrates the walk of the momentum over the time of the run.
+///
+/// Angular momentum sums the roundings of all bodies, which are independent: a kick changes it by |q| |dp| with norms
+/// instead of sums. For 121 particles the sum of sizes is 13 times larger and could hide a drift of the method. So
+/// `conserved` means below four standard deviations of this walk: a rounding is at most half a unit, its standard
+/// deviation is 0.29 units, and four of them for q and p together are 1.6 sqrt(n); 2 times two units are used.
+/// Evaluating the invariant adds as many terms as there are coordinates, each at most of its own size. Between this
+/// bound and the sum of sizes the cause is undecided, rounding or method, because stages and iterations round more than
+/// once.
+///
+/// The cause is also undecided if n roundings of one unit to the same side could explain the error. Such roundings
+/// occur: a free body moves by the same number in every step, and is rounded to the same side until its exponent
+/// changes.
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request) {
   std::vector<MomentumMap> all;

@@ -63,9 +63,9 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
 
   // Step sizes go from about half a time unit down to 2^12 times less. At the smallest, a coefficient that is wrong in
   // its 6th digit dominates an error term of order 4. The rounding errors of N steps make a random walk of sqrt(N)
-  // units, to which the reference adds a few; errors within a factor of 8 of that are masked. Implicit methods get only
-  // 8 halvings in quad: their steps cost hundreds of others, and no single coefficient can be wrong in its 6th digit,
-  // because all follow from Gauss points.
+  // units, to which the reference adds a few; errors within a factor of 8 of that are masked.
+  // Implicit methods get only 8 halvings in quad: their steps cost hundreds of others, and no single coefficient can be
+  // wrong in its 6th digit, because all follow from Gauss points.
   const int halvings = std::is_same_v<Long, Quad> && !map.claims().explicit_step ? 8 : 12;
   std::vector<double> log_step;
   std::vector<double> log_error;

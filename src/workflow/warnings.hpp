@@ -12,10 +12,12 @@
 
 namespace hamflow {
 
-/// Returns at most one warning of each kind: - energy_error: the largest energy error is above the scale of the energy;
+/// Returns at most one warning of each kind:
+/// - energy_error: the largest energy error is above the scale of the energy;
 /// - long_step: dt is above a tenth of the shortest period seen, or of the known period of the orbit if none was seen;
-/// - parted_copies: the two copies of the state that tao2 and tao4 carry have separated; - falls_into_centre: the orbit
-/// reaches a singular centre before the run ends; - no_number: an invariant is not finite at the start or at the end.
+/// - parted_copies: the two copies of the state that tao2 and tao4 carry have separated;
+/// - falls_into_centre: the orbit reaches a singular centre before the run ends;
+/// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary complete except for its warnings   @param turns null: nothing watched for steps that are too long
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
                                  const TurnWatch* turns, std::optional<double> exchanged = {});

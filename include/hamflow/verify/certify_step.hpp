@@ -48,14 +48,16 @@ struct StepCertificate {
 /// Measures a step on a problem.
 ///
 /// - Order: the errors of single steps from four states are measured against Taylor series in long double. Step sizes
-/// go from a third of a period down until the error is no longer a smooth function of h. Then log E = a + (r + 1) log h
-/// + b h + c h^2 is fitted to the smallest step sizes.   [HLW2006, Sect. II.1] - Symplecticity: the Jacobian is
-/// computed by central differences of order 6 with three difference lengths; their disagreement bounds its error.
-/// [HLW2006, Def. VI.2.1] - Time symmetry: distance from the start after a step of h and one of -h.   [HLW2006, Def.
-/// II.3.1] - Invariants: their change over a step. Each defect is compared with the error of the step. `true`: the
-/// defect is at rounding level for two step sizes at which the error of the method is 1000 times above rounding.
-/// `false`: the defect is more than a thousandth of this error. In between the property is undecided, for example if
-/// the step solves its equations to a coarse tolerance.
+///   go from a third of a period down until the error is no longer a smooth function of h. Then log E = a + (r + 1) log
+///   h + b h + c h^2 is fitted to the smallest step sizes.   [HLW2006, Sect. II.1]
+/// - Symplecticity: the Jacobian is computed by central differences of order 6 with three difference lengths; their
+///   disagreement bounds its error.   [HLW2006, Def. VI.2.1]
+/// - Time symmetry: distance from the start after a step of h and one of -h.   [HLW2006, Def. II.3.1]
+/// - Invariants: their change over a step.
+///
+/// Each defect is compared with the error of the step. `true`: the defect is at rounding level for two step sizes at
+/// which the error of the method is 1000 times above rounding. `false`: the defect is more than a thousandth of this
+/// error. In between the property is undecided, for example if the step solves its equations to a coarse tolerance.
 ///
 /// The result holds for the step on this problem only. For example, the trapezoidal rule is symplectic on linear
 /// problems. Therefore on a linear problem neither a higher order than claimed nor a property that the claims deny

@@ -3,10 +3,10 @@
 // with the other methods. Scenarios cannot choose it.
 //
 // A sub-step of size tau has K columns of 2, 4, ..., 2 K parts. With separate max-norms of the q- and the p-block,
-// error = max over both blocks of |T_K,K - T_K,K-1|/(tolerance max(|x0|, |x1|, |tau x0'|)) <= 1, next tau = tau
-// clamp(0.8 error^(-1/(2K - 1)), 1/10, 4). K grows with the number of digits, which is about the cheapest choice. The
-// increment of a sub-step is extrapolated instead of the state, so that its rounding error is relative to the
-// increment.
+//   error = max over both blocks of |T_K,K - T_K,K-1|/(tolerance max(|x0|, |x1|, |tau x0'|)) <= 1,
+//   next tau = tau clamp(0.8 error^(-1/(2K - 1)), 1/10, 4).
+// K grows with the number of digits, which is about the cheapest choice. The increment of a sub-step is extrapolated
+// instead of the state, so that its rounding error is relative to the increment.
 #pragma once
 
 #include <algorithm>

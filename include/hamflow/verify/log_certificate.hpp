@@ -25,14 +25,17 @@ struct LogCertificate {
 /// Returns the index of the first time that is not larger than the one before; nullopt: the times increase strictly.
 std::optional<std::size_t> first_time_that_does_not_rise(const std::vector<double>& t);
 
-/// Judges a log by the rules of a run's certificate (classify_run). These rules differ, because a log has no q and p: -
-/// Only oscillations of the energy itself are seen, from block to block. A class needs at least two of them, the
-/// classes bounded and random walk need 16. - `linear` needs a rate that is the same in the four quarters of the log,
-/// up to noise and the change itself. Otherwise the change may be a part of an oscillation slower than the log. If E or
-/// log |E| is a straight line, possibly with independent noise, no oscillation is needed. `bounded` needs that the
-/// energy has no trend in any quarter. - The rounding error is taken from four times the largest energy, because T and
-/// V are larger than their sum. Half of the smallest difference of two energies replaces it if that is larger, as in a
-/// log with few digits. One rounding between two samples is assumed.
+/// Judges a log by the rules of a run's certificate (classify_run). Because a log has no q and p, some rules differ:
+///
+/// - Only oscillations of the energy itself are seen, from block to block. A class needs at least two of them; the
+///   classes bounded and random walk need 16.
+/// - `linear` needs a rate that is the same in the four quarters of the log, up to noise and the change itself.
+///   Otherwise the change may be a part of an oscillation slower than the log. If E or log |E| is a straight line,
+///   possibly with independent noise, no oscillation is needed.
+/// - `bounded` needs that the energy has no trend in any quarter.
+/// - The rounding error is taken from four times the largest energy, because T and V are larger than their sum. Half of
+///   the smallest difference of two energies replaces it if that is larger, as in a log with few digits. One rounding
+///   between two samples is assumed.
 ///
 /// Times need not be equidistant: the log is divided into blocks of equal duration, and each gives one sample. If a gap
 /// is longer than half of the 32nd part of the log, the class is undecided.
