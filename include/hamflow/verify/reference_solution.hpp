@@ -36,8 +36,8 @@ int digits_of(const std::string& arithmetic);
 class ReferenceRun {
  public:
   /// Uses problem, start and arithmetic of the request. A run in double starts from numbers rounded to double, so the
-  /// reference starts from the same rounded numbers. A run with more digits starts from the numbers of the scenario
-  /// with all their digits, and so does its reference; the same holds for built-in numbers of a problem.
+  /// reference starts from the same rounded numbers. For a run with more digits, and for built-in numbers of a problem,
+  /// the reference uses the numbers with more digits than the run.
   /// @param t_end the final time, a number expression   @param steps of the finest run; they determine the number of
   /// pieces
   /// @throws Error if no reference method can integrate the problem
