@@ -69,7 +69,7 @@ Series track_of(const Curve& track, Series how) {
 bool is_whole_run(const FigureSamples& first_steps, const FigureData& data) {
   if (first_steps.t.empty() || data.t.empty()) return true;
   const double end = std::isfinite(data.end) ? data.end : data.t.back();
-  constexpr double rounding = 1e-9;  // of a time that is a sum of steps
+  constexpr double rounding = 1e-9;  // rounding of a time that is a sum of steps
   return std::abs(first_steps.t.back()) >= (1 - rounding) * std::abs(end);
 }
 

@@ -91,7 +91,7 @@ class Coverage {
   /// Pixels that a segment enters, without its first one.
   struct Entered {
     std::size_t pixels = 0;
-    std::size_t empty = 0;  // those of them that were empty before
+    std::size_t empty = 0;  // number of those that were empty before
   };
   Entered add(Pixel a, Pixel b) {
     const double length = std::hypot(b.x - a.x, b.y - a.y);

@@ -47,7 +47,7 @@ std::uintmax_t size_of_file(hid_t object) {
 /// Returns an upper bound for the data of a dataset in the file; only fill values can exceed it.
 std::uintmax_t most_bytes_of(hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose, "read how a dataset is stored");
-  constexpr std::uintmax_t best_ratio = 1032;  // of deflate
+  constexpr std::uintmax_t best_ratio = 1032;  // best compression ratio of deflate
   const std::uintmax_t stored = std::min<std::uintmax_t>(H5Dget_storage_size(dataset), size_of_file(dataset));
   return stored * (is_compressed(creation) ? best_ratio : 1);
 }

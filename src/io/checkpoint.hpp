@@ -26,7 +26,7 @@ struct ObserverRecord {
 
 struct Checkpoint {
   std::string identity;           // identity of the run, which run.h5 also contains
-  std::string version;            // of hamflow
+  std::string version;            // version of hamflow
   std::vector<std::string> keys;  // settings of the scenario
   std::vector<std::string> values;
   std::int64_t steps = 0;  // steps of the whole run

@@ -16,7 +16,7 @@ namespace hamflow {
 
 /// The header: the settings that must be the same for a sweep to be resumed.
 struct SweepHead {
-  std::string version;            // of hamflow
+  std::string version;            // version of hamflow
   std::vector<std::string> keys;  // settings of the scenario that all members share
   std::vector<std::string> values;
   std::vector<std::string> varied;  // PATH=VALUES as the user typed them

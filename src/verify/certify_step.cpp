@@ -23,12 +23,13 @@ namespace hamflow {
 
 namespace {
 
-constexpr double nothing_but_rounding = 0x1p-40;  // of scaled states: an iteration that ends at 1e-13 counts as exact
-constexpr double exact_to_rounding = 0x1p-44;     // 256 roundings; an adaptive method with a small tolerance makes more
-constexpr double told_from_rounding = 1024;       // an error of the method has to be this many times the rounding error
+// rounding of a scaled state: an iteration that ends at 1e-13 counts as exact
+constexpr double nothing_but_rounding = 0x1p-40;
+constexpr double exact_to_rounding = 0x1p-44;  // 256 roundings; an adaptive method with a small tolerance makes more
+constexpr double told_from_rounding = 1024;    // an error of the method has to be this many times the rounding error
 // a defect above this fraction of the error belongs to the method, not to its solver
 constexpr double part_of_the_error = 0x1p-10;
-constexpr double most_error = 0.3;  // of scaled states; a step with a larger error shows nothing
+constexpr double most_error = 0.3;  // error of a scaled state; a step with a larger error shows nothing
 constexpr double smooth = 0.02;     // an error with more noise comes from rounding or from a solver
 constexpr const char* energy_name = "energy";
 
@@ -310,7 +311,7 @@ class StepExamination {
     constexpr int most_lengths = 128;
     constexpr std::size_t enough = 24;
     constexpr double rounding_in_single_precision = 0x1p-17;
-    constexpr int gone = 8;  // this many noisy errors in succession, over a factor of 4 in h
+    constexpr int gone = 8;  // stops after this many noisy errors in succession, over a factor of 4 in h
     std::vector<OrderPoint> points;
     double largest_error = 0;
     int noisy = 0;

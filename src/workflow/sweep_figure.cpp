@@ -367,7 +367,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
       if (names.size() > 1) figure.line.push_back(value_label(sweep, name));
     }
   }
-  std::erase(done, 0U);  // for these values nothing is drawn
+  std::erase(done, 0U);  // values without finished members are not drawn
   if (!done.empty()) {
     const auto [fewest, most] = std::minmax_element(done.begin(), done.end());
     figure.notes.push_back("bars: standard error of the mean over " +

@@ -31,7 +31,7 @@ struct Series {
   /// each rectangle, coloured by the panel's axis z; two points of the curve are its lower left and its upper right
   /// corner.
   std::vector<double> value{};
-  double opacity = 1;  // of paths and fine dots
+  double opacity = 1;  // for paths and fine dots
 };
 
 struct Panel {

@@ -207,8 +207,8 @@ struct RunCertificate {
   std::optional<ReversalEvidence> reversal;  // nullopt: no step was taken
 };
 
-/// Makes the certificate of a run. @param simulation of the run; for a large system it is replaced by another one in
-/// the same state, to save memory
+/// Makes the certificate of a run. @param simulation simulation of the run; for a large system it is replaced by
+/// another one in the same state, to save memory
 /// @param steps_taken steps of the run; the reversal repeats a small part of them on another simulation
 /// @param go_on asked during the reversal; nothing else takes steps
 RunCertificate certify(const Request& request, const ProblemEntry& problem, std::unique_ptr<Simulation>& simulation,

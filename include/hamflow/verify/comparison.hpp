@@ -40,7 +40,7 @@ struct ComparisonPoint {
   bool explicit_step = true;
   double dt = 0;
   std::int64_t steps = 0;
-  std::optional<double> tolerance;  // of an adaptive method, in place of dt
+  std::optional<double> tolerance;  // tolerance of an adaptive method, in place of dt
   Outcome outcome = Outcome::done;
   std::string failure;
   Magnitude error;  // largest difference from the reference at the end, relative to its size along the motion

@@ -38,8 +38,8 @@ class ReferenceRun {
   /// Uses problem, start and arithmetic of the request. A run in double starts from numbers rounded to double, so the
   /// reference starts from the same rounded numbers. For a run with more digits, and for built-in numbers of a problem,
   /// the reference uses the numbers with more digits than the run.
-  /// @param t_end the final time, a number expression   @param steps of the finest run; they determine the number of
-  /// pieces
+  /// @param t_end the final time, a number expression   @param steps steps of the finest run; they determine the number
+  /// of pieces
   /// @throws Error if no reference method can integrate the problem
   ReferenceRun(const Request& request, const std::string& t_end, std::int64_t steps);
   ~ReferenceRun();

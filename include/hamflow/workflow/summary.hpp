@@ -120,7 +120,7 @@ struct ExactSummary {
   double max_difference = 0;          // for the group of numbers with the largest relative difference
   double relative_difference = 0;     // max_difference divided by the size of this group
   Named<double> differences;          // one for each group of numbers with the same unit
-  std::optional<double> uncertainty;  // of the closed form; nullopt in double
+  std::optional<double> uncertainty;  // uncertainty of the closed form; nullopt in double
 };
 
 /// Linear solves per step of an implicit method.

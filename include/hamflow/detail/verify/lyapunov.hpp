@@ -25,7 +25,7 @@ namespace hamflow {
 /// Orthonormal tangent vectors: all 2n, or the first few of them.
 class TangentFrame {
  public:
-  /// @param dimension n   @param count number of vectors, 1 .. 2n   @param seed of the generic first frame
+  /// @param dimension n   @param count number of vectors, 1 .. 2n   @param seed seed of the generic first frame
   TangentFrame(std::size_t dimension, std::size_t count, std::uint64_t seed = 1);
   std::vector<State<double>>& vectors() { return vectors_; }
   const std::vector<State<double>>& vectors() const { return vectors_; }
@@ -192,7 +192,7 @@ class LyapunovWatch final : public TangentWatch {
 
 struct LyapunovOptions {
   std::int64_t transient = 0;  // steps before the sums begin, so that the vectors can align with their directions
-  std::uint64_t seed = 1;      // of the first frame
+  std::uint64_t seed = 1;      // seed of the first frame
 };
 
 /// Returns the largest `count` exponents of the orbit of z over `steps` steps after the transient; count 0: all.

@@ -62,7 +62,7 @@ class TurnWatch final : public Observer {
   std::int64_t last_ = -1;       // the last step observed
   std::uint64_t stride_ = 1;     // distance between observed coordinates
   std::uint64_t width_ = 0;      // number of observed coordinates
-  std::vector<double> samples_;  // of the current window, step by step
+  std::vector<double> samples_;  // samples of the current window, step by step
   std::optional<FastestTurns> found_;
 };
 
