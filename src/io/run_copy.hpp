@@ -19,7 +19,7 @@ struct ConvertedStates {
   Table table;  // q and p; beyond double also digits/q, digits/p, digits/energy, digits/t
 };
 
-/// What is not in the copy.
+/// Tables and objects that the copy does not contain.
 struct LeftOut {
   std::vector<std::string> tables;  // tables of events and sections, because their states are in the old coordinates
   std::vector<std::string> others;  // "/mine/link (why)": objects of a user that cannot be copied

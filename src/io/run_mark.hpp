@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// 128 random bits as 32 hexadecimal digits.
+/// Returns 128 random bits as 32 hexadecimal digits.
 std::string new_identity();
 
 /// Returns an empty text if the file belongs to that run and has at least `rows` samples; otherwise a phrase that says

@@ -123,7 +123,7 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
     throw Error("found " + to + " coordinates, of which " + problem.info.name + " has several; allowed " +
                 joined(meant));
   }
-  // Two charts may have different choices. Only the choices that both have are compared.
+  // Two charts may have different choices, so only the choices that both have are compared.
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != problem.info.name || coordinates_of(entry) != to) continue;
     const bool same = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {

@@ -383,7 +383,7 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
   const std::string word = table.text(o.scale).value_or(n == 0 ? "1" : GasScales::per_side);
   const bool corner = table.plain_string(o.start.name) == GasStarts::corner && !table.has("initial");
   if (word == GasScales::per_side) {
-    if (n == 0 && !table.has(o.particles_per_side.name)) {  // a wrong value was complained about already
+    if (n == 0 && !table.has(o.particles_per_side.name)) {  // another check reports a wrong value
       table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else \"" +
                                        GasScales::listing + "\" or a number");
     }

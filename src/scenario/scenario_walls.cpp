@@ -271,7 +271,7 @@ void ScenarioReader::check_walls() {
     }
   }
   if (notes.empty()) return;
-  if (scenario_.problem->particles) {  // one note, since all particles have the same walls
+  if (scenario_.problem->particles) {  // one note, because all particles have the same walls
     notes = {"the walls of the box are moved by up to " + shortest(most) +
              " to multiples of half a unit of the lattice"};
   }

@@ -61,7 +61,7 @@ class SweepJournal {
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
-  /// @throws FileError if it cannot be written, e.g. because the disk is full
+  /// @throws FileError if it cannot be written, for example because the disk is full
   void append(std::uint64_t member, const FinishedMember& finished);
   /// Forces the records to the disk, so that they survive a crash of the machine.   @throws FileError
   void force() const { force_to_disk(file_); }

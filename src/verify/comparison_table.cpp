@@ -16,7 +16,7 @@ std::string time_text(double seconds) {
   return fmt::format("{:.3g} s", seconds);
 }
 
-/// A field of a CSV file.   [RFC4180]
+/// Quotes a text for a field of a CSV file if necessary.   [RFC4180]
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";

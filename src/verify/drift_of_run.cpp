@@ -201,7 +201,7 @@ std::optional<double> periods_of(const std::vector<double>& x, double correlatio
 // Limits between the classes. The confusion table (tools/confusion_table.py) justifies them; HACKING.md shows its
 // quantiles.
 constexpr double clear_trend = 3;   // Trend::size; an oscillation of two periods has less than 2
-constexpr double clear_rank = 0.7;  //
+constexpr double clear_rank = 0.7;  // of Trend::rank
 constexpr double rank_of_a_drift = 0.9;
 constexpr double usual_in_walks = 15;  // limits of trend_of_walks()
 constexpr double rare_in_walks = 30;

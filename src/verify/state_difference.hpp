@@ -17,7 +17,7 @@ std::string exact_digits(double x);
 /// Returns max_i |a_i - b_i|/sizes_i, computed with `digits` digits.
 Magnitude largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b,
                              const std::vector<double>& sizes, int digits);
-/// |a - b|/scale.
+/// Returns |a - b|/scale.
 Magnitude relative_difference(const std::string& a, const std::string& b, double scale, int digits);
 
 }  // namespace hamflow

@@ -17,7 +17,7 @@ struct Surroundings {
   double frequency = 0;
 };
 
-/// The Euclidean norm.
+/// Euclidean norm.
 double size_of(const State<double>& x);
 /// Returns the spectral radius of the vector field's Jacobian at z, in radians per unit of time; 0 if it is not finite.
 double frequency_at(const StepProblem& problem, const State<double>& z);

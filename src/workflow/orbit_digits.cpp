@@ -87,7 +87,7 @@ class Orbit {
   const Mp& radius() const { return radius_; }
   const Mp& energy() const { return energy_; }
   const Mp& momentum() const { return momentum_; }
-  /// |T| + |V| at the start.
+  /// Returns |T| + |V| at the start.
   const Mp& size() const { return size_; }
   void move(const Mp& energy, const Mp& momentum) {
     energy_ += energy;

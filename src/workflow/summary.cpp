@@ -260,7 +260,6 @@ static std::string chosen_iteration(const Request& request) {
   return taken.options == request.method.options ? "" : taken.options.at("iteration");
 }
 
-/// See summary.hpp.
 std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
     return "a smaller dt does not help: H = E has only one root in this momentum, so a hard wall cannot reflect it; "
@@ -320,7 +319,7 @@ RunError error_of(const Scenario& scenario, const Simulation& simulation, const 
   const bool says_more =
       result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
   const bool has_message = says_more && !result.failure.empty();
-  const std::int64_t step = frame.step + 1;  // the step that failed
+  const std::int64_t step = frame.step + 1;
   return {std::string(name(result.outcome)),
           step,
           frame.time,

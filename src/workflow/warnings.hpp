@@ -29,9 +29,9 @@ struct WatchedMotion {
   const OrbitSummary* orbit = nullptr;  // null: unknown
   const TurnWatch* turns = nullptr;     // null: nothing watched for steps that are too long
   std::vector<WallCount> walls{};       // number of bounces off each wall
-  std::int64_t steps = 0;               // number of steps
-  double mean_step = 0;                 // mean of steps of varying length; 0: unknown
-  std::optional<double> exchanged{};    // EnergyExchange::typical()
+  std::int64_t steps = 0;
+  double mean_step = 0;               // mean of steps of varying length; 0: unknown
+  std::optional<double> exchanged{};  // EnergyExchange::typical()
 };
 /// Returns the same warnings without no_number.
 std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion);

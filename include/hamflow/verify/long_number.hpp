@@ -14,9 +14,9 @@ struct LongNumber {
   operator double() const { return value; }  // NOLINT: most code only needs the double
 };
 
-/// x times a decimal number of any size.
+/// Returns x times a decimal number of any size.
 LongNumber times(double x, const std::string& decimal);
-/// x 10^exponent.
+/// Returns x 10^exponent.
 LongNumber times_power_of_ten(double x, int exponent);
 LongNumber quotient(const LongNumber& a, const LongNumber& b);
 bool at_most(const LongNumber& a, const LongNumber& b);

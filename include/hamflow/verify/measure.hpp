@@ -36,7 +36,7 @@ constexpr std::string_view name(Finding finding) {
 /// Region for measurements: states around a generic state of a problem, and a step size that is large but safe there.
 struct Region : RegionInfo {
   std::string problem;
-  std::map<std::string, std::string> variant{};  // e.g. potential = kepler
+  std::map<std::string, std::string> variant{};  // for example potential = kepler
   std::optional<Walls> walls{};
   bool of_bodies = false;    // a region of bodies: states are moved into the frame of their centre of mass
   bool constrained = false;  // states are moved onto the constraints
@@ -147,7 +147,7 @@ struct PropertyRow {
   Finding verdict() const;
   bool agrees() const { return verdict() == Finding::yes; }
   bool has(std::string_view property) const;
-  /// The names of the properties that do not agree, joined by commas.
+  /// Returns the names of the properties that do not agree, joined by commas.
   std::string differing() const;
   const PropertyCell& operator[](std::string_view property) const;
 };

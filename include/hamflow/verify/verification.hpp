@@ -1,4 +1,4 @@
-// `hamflow verify`: measures several methods on all cores.
+// Measures several methods on all cores, for `hamflow verify`.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 namespace hamflow {
 
 struct VerificationRequest {
-  std::vector<std::string> methods;  // e.g. "cg(1,5)"
+  std::vector<std::string> methods;  // for example "cg(1,5)"
   bool all = false;                  // measure every method of the catalogue, in place of `methods`
   std::string problem{};             // empty: the default regions of each method
 };

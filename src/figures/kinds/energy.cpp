@@ -1,4 +1,4 @@
-// H over time.
+// Energy H over time.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -27,8 +27,8 @@ constexpr std::string_view name(DriftClass drift) {
 
 struct DriftStatistics {
   static constexpr double level = 1e-4;             // significance level of the t-test
-  static constexpr double linear_above = 0.7;       // limits of the growth exponent
-  static constexpr double random_walk_above = 0.3;  //
+  static constexpr double linear_above = 0.7;       // upper limits of the growth exponent of random walk,
+  static constexpr double random_walk_above = 0.3;  // and of bounded
   // p-value of "the mean increment is 0", corrected for the number of starts
   double p_value = 1;
   // growth of the RMS error over the starts, from dyadic windows of time
@@ -62,7 +62,7 @@ struct RunDrift {
   static constexpr int fewest_blocks = 32;
   static constexpr double sign_level = 1e-6;
   static constexpr double fewest_periods = 2;
-  static constexpr double periods_to_be_told = 16;  // needed for the classes random walk and bounded
+  static constexpr double periods_to_be_told = 16;  // fewest periods for the classes random walk and bounded
   int blocks = 0;
   // periods seen of the slowest oscillation, including those of the energy; nullopt: no oscillation
   std::optional<double> periods;

@@ -10,7 +10,7 @@
 
 namespace hamflow {
 
-/// The fastest oscillation seen.
+/// The fastest oscillation that was seen.
 struct FastestTurns {
   double period = 0;             // in units of time
   double dt = 0;                 // step size of the steps that showed the oscillation
@@ -36,7 +36,7 @@ class TurnWatch final : public Observer {
 
   bool is_active() const { return active_; }
   double step_length() const { return dt_; }
-  /// The absolute value of the longest step taken; 0 before the first.
+  /// Returns the absolute value of the longest step taken; 0 before the first step.
   double longest_step() const;
   /// Continues from this step with another step size, and keeps earlier results.
   void restart(std::int64_t step, double dt, bool active);
