@@ -10,10 +10,10 @@
 namespace hamflow::figures {
 
 namespace {
-constexpr std::size_t most_words = 48;  // upright beside each other, on a wide page
+constexpr std::size_t most_words = 48;  // the number of upright words that fit next to each other on a wide page
 
 int decimals_of(double step) {
-  // The small shift keeps a step of 0.1 from counting as 0.0999...
+  // The small shift prevents a step of 0.1 from counting as 0.0999...
   return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
 }
 
@@ -30,7 +30,8 @@ std::vector<Tick> linear_ticks(const Axis& axis) {
   return result;
 }
 
-/// Powers of ten, of long axes every second or third; between them the other digits, of short axes 2 and 5 with labels.
+/// Makes ticks at powers of ten, on long axes at every second or third. Minor ticks are at the other digits; on short
+/// axes 2 and 5 have labels.
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   std::vector<Tick> result;
   const auto add = [&](double at, const std::string& label, bool minor) {
@@ -50,7 +51,7 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   return result;
 }
 
-/// Words at 0, 1, 2, ...
+/// Makes ticks with words at 0, 1, 2, ...
 std::vector<Tick> word_ticks(const Axis& axis) {
   std::vector<Tick> result;
   const std::size_t every = (axis.words.size() + most_words - 1) / most_words;
@@ -62,7 +63,7 @@ std::vector<Tick> word_ticks(const Axis& axis) {
 
 bool fits(const Axis& axis, TickRoom room) {
   const double count = std::floor(axis.high / axis.step) - std::ceil(axis.low / axis.step) + 1;
-  if (count > 3 * static_cast<double>(room.ticks)) return false;  // not worth the labels
+  if (count > 3 * static_cast<double>(room.ticks)) return false;  // skips making labels that cannot fit
   const std::size_t ticks = axis.ticks().size();
   return ticks <= room.ticks && ticks * (axis.widest_label() + 1) <= room.characters;
 }
@@ -92,7 +93,7 @@ int common_exponent(double largest) {
 }
 
 double scaled(double x, int exponent) {
-  const int half = exponent / 2;  // 10^308 and 10^-308 both have to come out right
+  const int half = exponent / 2;  // dividing twice avoids overflow for 10^308 and 10^-308
   return x / std::pow(10.0, half) / std::pow(10.0, exponent - half);
 }
 
@@ -134,7 +135,7 @@ Axis plain_axis(double low, double high, TickRoom room) {
       axis.step = power < 0 ? digit / std::pow(10.0, -power) : digit * std::pow(10.0, power);
       if (!fits(axis, room)) continue;
       Axis finer = axis;
-      finer.step *= 0.8;  // 4 in place of 5, where 5 leaves one or two ticks
+      finer.step *= 0.8;  // a step of 4 in place of 5, if 5 leaves only one or two ticks
       return digit == 5 && axis.ticks().size() < 3 && fits(finer, room) ? finer : axis;
     }
   }

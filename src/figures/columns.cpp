@@ -30,7 +30,7 @@ std::vector<Column> columns_of(const FigureData& data) {
   }
   for (const auto& [name, list] : data.observables) all.push_back({name, quantity(name), Sort::other, values(list)});
   for (const auto& [name, list] : data.invariants) {
-    const bool taken =  // by a momentum that is conserved
+    const bool taken =  // a conserved momentum is already a column
         std::any_of(all.begin(), all.end(), [&name = name](const Column& other) { return other.name == name; });
     if (!taken) all.push_back({name, quantity(name), Sort::other, values(list)});
   }

@@ -18,7 +18,7 @@ std::string names_for(std::size_t names, std::size_t numbers, const std::string&
   return "there are " + std::to_string(names) + " names of " + what + " for " + std::to_string(numbers);
 }
 
-/// Lists that belong together have to be equally long.
+/// Returns what is wrong if lists that belong together have different lengths.
 std::string inconsistency(const FigureData& data) {
   std::string wrong = names_for(data.coordinates.size(), data.q.size(), "coordinates");
   if (wrong.empty()) wrong = names_for(data.momenta.size(), data.p.size(), "momenta");
@@ -46,7 +46,7 @@ std::string obstacle(const FigureData& data, const figures::FigureKind& kind) {
   return kind.obstacle(data);
 }
 
-/// Why this run has no such figure, as a sentence that says what is allowed.
+/// Explains why this run has no such figure, as a sentence that says what is allowed.
 std::string why_not_alone(const FigureData& data, const FigureOptions& options, const std::string& kind) {
   FigureFacts facts = facts_of(data);
   facts.columns_chosen = !options.y.empty();
@@ -64,7 +64,7 @@ std::string why_not_alone(const FigureData& data, const FigureOptions& options, 
          (others.empty() ? "; no other figure can be drawn from these samples" : "; allowed " + joined(others));
 }
 
-/// Of many columns the first and the last, and how many there are.
+/// Lists names. Of many columns it lists the first and the last ones, and their number.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 24, shown = 4;
   if (names.size() <= most) return joined(names);
@@ -75,7 +75,7 @@ std::string listed(const std::vector<std::string>& names) {
   return part(0, shown) + ", ..., " + part(names.size() - shown, names.size()) + " (" + std::to_string(names.size()) +
          " columns)";
 }
-/// What is wrong with the columns that are asked for.
+/// Returns what is wrong with the chosen columns.
 std::string refused_columns(const Figure& figure, const figures::FigureKind& kind) {
   std::vector<std::string> asked = figure.options.y;
   if (!figure.options.x.empty()) asked.insert(asked.begin(), figure.options.x);
@@ -96,7 +96,7 @@ std::string refused_columns(const Figure& figure, const figures::FigureKind& kin
   }
   return "";
 }
-/// What is wrong with the times that are asked for.
+/// Returns what is wrong with the chosen times.
 std::string refused_times(const Figure& figure, const figures::FigureKind& kind) {
   const std::vector<double>& asked = figure.options.at;
   if (asked.empty()) return "";

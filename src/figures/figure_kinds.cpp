@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "figure_kind.hpp"
-#include "figure_kind_list.hpp"  // generated from the folder kinds/
+#include "figure_kind_list.hpp"  // the build generates it from the folder kinds/
 #include "hamflow/core/text.hpp"
 
 namespace hamflow {
@@ -81,7 +81,7 @@ std::vector<std::string> drawable_figures(const FigureFacts& facts) {
   for (const figures::FigureKind* kind : figures::all_kinds()) {
     if (kind->refused(facts).empty()) names.emplace_back(kind->name);
   }
-  // Of a gas one wants to see the particles before anything else.
+  // The particles are the most informative figure of a gas, so they come first.
   const auto particles = std::find(names.begin(), names.end(), "particles");
   if (facts.gas && particles != names.end()) std::rotate(names.begin(), particles, particles + 1);
   return names;

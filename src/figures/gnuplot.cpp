@@ -33,7 +33,7 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Files instead of pipes: none of the three streams can block another, and nobody gets a SIGPIPE.
+/// Temporary files are used instead of pipes, so that no stream can block another, and nothing causes SIGPIPE.
 File scratch_file() {
   File file(std::tmpfile());
   if (!file) throw FileError(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));
@@ -41,7 +41,7 @@ File scratch_file() {
   return file;
 }
 
-/// A folder of its own for what gnuplot writes.
+/// A temporary folder for the output of gnuplot.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -76,7 +76,7 @@ std::string contents(std::FILE* file) {
   return bytes;
 }
 
-/// What gnuplot complained of, without its echo of the script.
+/// Returns the error messages of gnuplot, without its echo of the script.
 std::string complaint(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size() && lines.size() < 6;) {
@@ -131,8 +131,8 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 namespace {
 thread_local const std::function<bool()>* asked_while_drawing = nullptr;
 
-/// gnuplot, in a process group of its own: Ctrl-C in a terminal reaches whoever waits for it, and what it may have
-/// started ends with it.
+/// Runs gnuplot in a process group of its own. So Ctrl-C in a terminal reaches only the program that waits for it, and
+/// processes that gnuplot started end with it.
 class Child {
  public:
   Child(std::FILE* input, std::FILE* output, std::FILE* errors) {
@@ -144,7 +144,7 @@ class Child {
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    sigset_t usual;  // what this program ignores: a figure that is cut short by a limit has to be noticed
+    sigset_t usual;  // signals that this program ignores; a figure cut short by a file size limit has to be noticed
     sigemptyset(&usual);
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &usual);
@@ -165,7 +165,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Its status, once it has ended.
+  /// Returns its exit status, once it has ended.
   std::optional<int> ended() {
     int status = 0;
     const pid_t which = waitpid(id_, &status, WNOHANG);
@@ -206,7 +206,7 @@ std::vector<std::string> run_gnuplot(const std::vector<std::string>& scripts, do
     std::string name = (folder / std::to_string(k)).string();
     replace_all(name, "'", "''");
     const std::size_t behind_terminal = scripts[k].find('\n') + 1;
-    // The SVG terminal begins with the colour that it had last: every figure finds the same one.
+    // The SVG terminal starts with the last colour that it used. This makes every figure start with the same one.
     script += "set terminal svg\nset output '/dev/null'\nplot [0:1] x\nreset session\n";
     script += scripts[k].substr(0, behind_terminal) + "set output '" + name + "'\n" +
               scripts[k].substr(behind_terminal) + "unset output\nreset session\n";
@@ -239,13 +239,13 @@ std::string finished(std::string bytes, Format format, const std::string& title)
   if (!bytes.starts_with(begins)) throw FileError("gnuplot wrote something that is not a figure");
   if (format == Format::svg) {
     erase_between(bytes, "<title>", "</title>", "<title>" + as_xml(printable(title)) + "</title>");
-    replace_all(bytes, "<text>", "<text xml:space=\"preserve\">");  // blanks around subscripts
-    // A browser without the font should take its relatives before its own choice of a serif.
+    replace_all(bytes, "<text>", "<text xml:space=\"preserve\">");  // keeps blanks around subscripts
+    // A browser without the font should take a similar one instead of its default serif font.
     replace_all(bytes, "font-family=\"DejaVu Sans\"", "font-family=\"DejaVu Sans, Verdana, sans-serif\"");
   } else if (format == Format::pdf) {
     const std::size_t begin = bytes.rfind("/CreationDate (");
     const std::size_t end = begin == std::string::npos ? begin : bytes.find(')', begin);
-    // Blanks keep every offset of the file's table of objects.
+    // Overwriting with blanks keeps every offset of the file's object table.
     if (end != std::string::npos) bytes.replace(begin, end + 1 - begin, std::string(end + 1 - begin, ' '));
   }
   return bytes;

@@ -1,4 +1,4 @@
-// The gnuplot process: scripts go in, the bytes of their figures come out.
+// Runs gnuplot: scripts are its input, the bytes of their figures its output.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,18 @@
 
 namespace hamflow::figures {
 
-/// Runs scripts, whose first lines choose the terminals, in one process and returns the figures that it writes, one of
-/// each.   @param longest seconds for each of them, after which gnuplot is ended
-/// @throws FileError with gnuplot's own words, or when it takes longer   @throws DrawingStopped
+/// Runs scripts in one process. Their first lines choose the terminals. Returns one figure for each script.   @param
+/// longest time limit for each script in seconds, after which gnuplot is ended
+/// @throws FileError with gnuplot's message, or if it takes longer   @throws DrawingStopped
 std::vector<std::string> run_gnuplot(const std::vector<std::string>& scripts, double longest = 300);
 
-/// The same figure without what changes from run to run or names the program: dates, and tooltips saying "Gnuplot".
-/// @throws FileError when the bytes are not a figure of that format
+/// Removes from a figure what changes from run to run or names the program: dates, and tooltips with "Gnuplot".
+/// @throws FileError if the bytes are not a figure of that format
 std::string finished(std::string bytes, Format format, const std::string& title);
 
-/// A script that shows whether gnuplot finds a font: without one it draws blanks, and says nothing.
+/// Returns a script that shows whether gnuplot finds a font. Without a font gnuplot draws blanks, without a message.
 std::string font_probe();
-/// @param probed what font_probe() drew   @throws FileError naming the package to install
+/// @param probed output of font_probe()   @throws FileError that names the package to install
 void require_font(const std::string& probed);
 
 }  // namespace hamflow::figures

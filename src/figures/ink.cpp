@@ -13,14 +13,14 @@ namespace {
 constexpr std::array<const char*, 8> colours{"#1f4e8c", "#d55e00", "#009e73", "#b0489c",
                                              "#e69f00", "#56b4e9", "#6b3d1e", "#4d4d4d"};
 
-/// The colour with its opacity, as gnuplot takes it: "#aarrggbb", where ff is transparent.
+/// Returns the colour with its opacity as gnuplot accepts it: "#aarrggbb", where ff is transparent.
 std::string inked(const Series& series) {
   const std::string colour = colour_of(series);
   if (series.opacity >= 1) return colour;
   return fmt::format("#{:02x}{}", static_cast<int>(std::lround(255 * (1 - series.opacity))), colour.substr(1));
 }
 
-/// The part of a plot command that draws; dark dots over a lighter line differ in grey as well.
+/// Returns the drawing style for a plot command. Dark dots over a lighter line also differ in brightness.
 std::string drawn(const Series& series) {
   const std::string colour = inked(series);
   const auto line = [&](double width) {
@@ -125,13 +125,13 @@ std::vector<std::string> styles(const Series& series) {
   if (series.ink == Ink::fields) {
     return {"1:2:3:4:5:6:7 with boxxyerror fillcolor palette fillstyle solid 1 noborder" + name};
   }
-  if (series.ink == Ink::band) {  // the lines keep a field without height visible
+  if (series.ink == Ink::band) {  // the edges keep an area without height visible
     const std::string edge = "with lines linewidth 0.4 linecolor rgb '" + colour + "'";
     return {"1:2:3 with filledcurves fillstyle solid 1 noborder fillcolor rgb '#a0" + colour.substr(1) + "' notitle",
             "1:2 " + edge + " notitle", "1:3 " + edge + name};
   }
   if (!series.name.empty() && (series.ink == Ink::fine_dots || series.ink == Ink::path || series.ink == Ink::place)) {
-    // A legend shows no colour of so fine a line or dot: there it stands larger.
+    // A legend cannot show the colour of such a fine line or dot, so it is drawn larger there.
     const std::string larger = series.ink == Ink::path
                                    ? "lines linewidth 1 dashtype " + std::to_string(series.mark.dash)
                                    : std::string("points pointtype 7 pointsize 0.5");

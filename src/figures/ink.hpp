@@ -1,4 +1,4 @@
-// How a series becomes lines of a script: its data, and the words of gnuplot for its ink.
+// Writes a series for a gnuplot script: its data, and the drawing style for its ink.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace hamflow::figures {
 
-/// The rows of the series, where the panel's axes place them; empty ones lift the pen.
+/// Returns the rows of the series, at their positions on the panel's axes; empty rows break a line.
 std::vector<std::string> data_lines(const Panel& panel, const Series& series);
 
-/// What stands behind the name of the data in a plot command, once for each layer that is drawn.
+/// Returns the text after the name of the data in a plot command, one for each layer.
 std::vector<std::string> styles(const Series& series);
 
 }  // namespace hamflow::figures

@@ -13,10 +13,10 @@ constexpr double key_line = 3.3;
 constexpr double text_points = 7;
 constexpr std::size_t most_in_one_column = 16;
 
-constexpr double letter = 1.42;  // mm, of 7 points
+constexpr double letter = 1.42;  // width of a letter of 7 points in mm
 constexpr double mark_width = 9;
 
-/// Where the lines of a legend stand, in columns as wide as their names.
+/// Positions of the lines of a legend, in columns as wide as their names.
 struct Layout {
   struct Place {
     double x = 0;
@@ -33,7 +33,8 @@ Layout layout_of(const std::vector<LegendLine>& legend, std::size_t columns) {
   double left = 0;
   std::size_t row = 0;
   for (std::size_t i = 0; i < legend.size(); ++i) {
-    const bool is_full = row == rows || (legend[i].heading && row + 1 == rows);  // no heading alone at the foot
+    // a heading must not be the last line of a column
+    const bool is_full = row == rows || (legend[i].heading && row + 1 == rows);
     if (is_full && i > 0) {
       left = layout.width + 2;
       row = 0;
@@ -46,7 +47,7 @@ Layout layout_of(const std::vector<LegendLine>& legend, std::size_t columns) {
   return layout;
 }
 
-/// Two columns of a long legend, where the width has room for them.
+/// Lays out a long legend in two columns, if the width allows.
 Layout layout_in(const std::vector<LegendLine>& legend, double width) {
   if (legend.size() <= most_in_one_column) return layout_of(legend, 1);
   const Layout two = layout_of(legend, 2);

@@ -15,7 +15,7 @@ struct Point {
   double y = 0;
 };
 
-/// Marching squares with the crossings found by bisection.
+/// Marching squares; the crossings are found by bisection.
 class LevelTracer {
  public:
   LevelTracer(const std::function<double(double, double)>& h, double level, const Extent& q, const Extent& p)
@@ -30,7 +30,7 @@ class LevelTracer {
       for (int i = 0; i < cells; ++i) cross_cell(i, j);
     }
     Curve curve;
-    for (const bool open : {true, false}) {  // branches that end at the border first, then closed ones
+    for (const bool open : {true, false}) {  // first the branches that end at the border, then closed ones
       for (const auto& [edge, links] : links_) {
         if (!done_.contains(edge) && (!open || links.size() == 1)) follow(edge, curve);
       }
@@ -41,7 +41,7 @@ class LevelTracer {
  private:
   static constexpr int cells = 400;
   static constexpr std::size_t nodes = cells + 1;
-  using Edge = std::size_t;  // twice its lower left node, plus one if it goes up
+  using Edge = std::size_t;  // twice the index of its lower left node, plus one if the edge is vertical
 
   static std::size_t node(int i, int j) { return static_cast<std::size_t>(j) * nodes + static_cast<std::size_t>(i); }
   static double between(double low, double high, double part) { return low * (1 - part) + high * part; }
@@ -63,7 +63,7 @@ class LevelTracer {
     }
     if (count == 2) {
       link(side[crossed[0]], side[crossed[1]]);
-    } else if (count == 4) {  // a saddle: the centre says which corners belong together
+    } else if (count == 4) {  // a saddle; the value at the centre decides which crossings belong together
       const bool centre = excess(q_at(i + 0.5), p_at(j + 0.5)) < 0;
       const bool turned = centre == (corner[0] < 0);
       link(side[0], side[turned ? 1 : 3]);
@@ -71,7 +71,7 @@ class LevelTracer {
     }
   }
 
-  /// Where the curve crosses an edge; false at a pole, where H changes sign without being zero.
+  /// Finds the crossing of an edge. Returns false at a pole, where H changes sign without being zero.
   bool find(Edge edge) {
     if (points_.contains(edge)) return true;
     const int i = static_cast<int>((edge / 2) % nodes);

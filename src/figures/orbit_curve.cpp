@@ -45,7 +45,7 @@ class OrbitSampler {
     const OrbitPoint z = at(phi);
     curve_.add(z.x, z.y);
   }
-  /// The last visible angle on the way from a visible to an invisible one.
+  /// Returns the last visible angle between a visible and an invisible one.
   double horizon(double inside, double outside) const {
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (inside + outside);
@@ -53,7 +53,7 @@ class OrbitSampler {
     }
     return inside;
   }
-  /// Goes on from `left`, which is already drawn if it is visible.
+  /// Continues from `left`, which is already drawn if it is visible.
   void join(double left, double right) {
     const bool starts = visible(left);
     const bool ends = visible(right);
@@ -100,7 +100,7 @@ Curve sample_orbit(const std::function<double(double)>& r_of_phi, double first, 
 namespace hamflow {
 
 namespace {
-/// The angle at each sample, continued over the branch cut.
+/// Returns the angle at each sample, continued over the branch cut.
 std::vector<double> continued_angles(const figures::Curve& track) {
   std::vector<double> phi;
   for (std::size_t k = 0; k < track.x.size(); ++k) {
@@ -110,7 +110,7 @@ std::vector<double> continued_angles(const figures::Curve& track) {
   return phi;
 }
 
-/// Whether r(phi) is an orbit that closes after one turn.
+/// Returns whether r(phi) is an orbit that closes after one turn.
 bool closes(const std::function<double(double)>& r_of_phi, double from) {
   for (int i = 0; i < 360; ++i) {
     const double phi = from + i * std::numbers::pi / 180;
@@ -120,7 +120,7 @@ bool closes(const std::function<double(double)>& r_of_phi, double from) {
   return true;
 }
 
-/// Whether a curve stays in the rectangle of the data, give or take a little.
+/// Returns whether a curve stays within the rectangle of the data, with a small margin.
 bool stays_inside(const figures::Curve& curve, const figures::Curve& track) {
   const auto fits = [](const std::vector<double>& inner, const std::vector<double>& outer) {
     figures::Extent data;
@@ -152,7 +152,7 @@ void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureDat
     if (*most - *least < turn && !stays_inside(curve, track)) curve = {};
   }
   if (curve.x.empty()) {
-    constexpr double most_turns = 60;  // of a rosette: more would be a grey disc
+    constexpr double most_turns = 60;  // turns of a rosette; more would be a grey disc
     curve = figures::sample_orbit(r_of_phi, *least, std::min(*most, *least + most_turns * turn), 1.01 * largest);
   }
   data.curve_x = std::move(curve.x);

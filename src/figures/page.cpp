@@ -19,19 +19,19 @@
 namespace hamflow::figures {
 
 namespace {
-// Millimetres, for text of 8 and 7 points.
-constexpr double edge = 1.5;        // free border of the page
-constexpr double title_line = 3.8;  // from line to line
+// All lengths are in millimetres, for text of 8 and 7 points.
+constexpr double edge = 1.5;        // empty border of the page
+constexpr double title_line = 3.8;  // distance between lines
 constexpr double note_line = 3.4;
-constexpr double power_line = 4.2;  // a power of ten above a box
-constexpr double below_box = 9.0;   // tick labels in a line and label of the x-axis
+constexpr double power_line = 4.2;  // height of a power of ten above a box
+constexpr double below_box = 9.0;   // height of a line of tick labels and of the label of the x-axis
 constexpr double digit = 1.6;       // width of a character of a tick label
-constexpr double colours_gap = 2;   // between the box of a map and its colours
+constexpr double colours_gap = 2;   // gap between the box of a map and its colour bar
 constexpr double colours_wide = 3;
-constexpr double smallest_box = 15;  // either side, where a size is asked for
+constexpr double smallest_box = 15;  // smallest side of a box, if the page has a given size
 constexpr double label_size = 8;     // points
 constexpr double tick_size = 7;
-constexpr double tick_line = 2.6;  // of text of this size
+constexpr double tick_line = 2.6;  // line height of tick labels
 
 double letters(std::size_t count) { return digit * static_cast<double>(count); }
 
@@ -45,7 +45,7 @@ class PageWriter {
     if (page_.title.empty()) title_.clear();
     for (const Panel& panel : page_.panels) {
       left_of_box_ = std::max(left_of_box_, edge + 6.2 + letters(panel.y.widest_label()));
-      // Words stay below their part of the axis.
+      // Words stay below their part of the axis, so they need no room at the right.
       if (panel.x.words.empty()) right_of_box_ = std::max(right_of_box_, 0.8 + 0.5 * letters(panel.x.widest_label()));
       if (panel.is_map()) right_of_box_ = std::max(right_of_box_, colours(panel) + 6.2);
     }
@@ -82,7 +82,7 @@ class PageWriter {
   }
 
  private:
-  /// Words that are wider than their part of the axis.
+  /// Returns whether words are wider than their part of the axis, so that they are written upright.
   bool are_upright(const Axis& axis) const {
     return letters(axis.widest_label() + 1) * static_cast<double>(axis.words.size()) > width_ && !axis.words.empty();
   }
@@ -91,7 +91,7 @@ class PageWriter {
   double height_of_notes() const {
     return page_.notes.empty() ? 0 : 1 + note_line * static_cast<double>(page_.notes.size());
   }
-  /// Points that paper does not show. A path that fills an area is told apart from its first turns in a note.
+  /// Removes points that cannot be seen in print. If a path fills an area, a note explains its two shades.
   void leave_out_unseen() {
     constexpr double usual_pixel = 25.4 / 300;  // mm
     bool any_area = false;
@@ -109,7 +109,7 @@ class PageWriter {
     }
     if (any_area) page_.notes.emplace_back("light: the whole line; dark: its first turns");
   }
-  /// Notes begin below the box and end at the border of the page.
+  /// Breaks notes into lines. Notes begin below the box and end at the border of the page.
   void wrap_notes() {
     constexpr double character = 1.36;  // mm, of text of tick_size
     constexpr std::size_t most_lines = 4;
@@ -144,7 +144,7 @@ class PageWriter {
     for (std::size_t k = 0; k < page_.panels.size(); k += columns_) height += row(k);
     return height;
   }
-  /// To the border of the page.
+  /// Width from the legend's left end to the border of the page.
   double legend_width() const {
     return page_.width - cell() * static_cast<double>(legend_column()) - left_of_box_ - edge;
   }
@@ -158,10 +158,10 @@ class PageWriter {
       height = std::max(height, legend_top() + legend_height(page_.legend, legend_width()) + edge);
     return height;
   }
-  /// The colours of a map and their tick labels.
+  /// Width of the colour bar of a map and its tick labels.
   static double colours(const Panel& panel) { return colours_gap + colours_wide + 1 + letters(panel.z.widest_label()); }
 
-  /// Boxes as high as the page allows, all alike.
+  /// Makes all boxes equally high, so that they fill the height of the page.
   void fill_height() {
     double fixed = top_of_panels() + height_of_notes();
     std::size_t rows = 0;
@@ -180,7 +180,7 @@ class PageWriter {
                             std::ceil(std::max(needed, too_high ? full_height() : needed)) / 10));
   }
 
-  /// One scale on both axes of the box as it is: the axis with room to spare shows more.
+  /// Sets one scale for both axes of a box with given shape. The axis with room to spare shows a larger range.
   static void fill_box(Panel& panel) {
     const double x = panel.x.high - panel.x.low;
     const double y = panel.y.high - panel.y.low;
@@ -247,7 +247,7 @@ class PageWriter {
     if (panel.is_map()) colour_bar(panel, right, top, bottom);
   }
 
-  /// Points of a label that has this much room.
+  /// Returns the size in points with which a label fits.
   static double fitting(const std::string& label, double room) {
     constexpr double character = 1.55;  // mm, of text of label_size
     constexpr double smallest = 5;
@@ -262,25 +262,25 @@ class PageWriter {
   void axis(const char* name, const Axis& axis, const char* offset) {
     script_.line("set {}range [{:.12g}:{:.12g}]", name, axis.low, axis.high);
     const std::string ticks = joined(axis.ticks(), [](const Tick& tick) {
-      const bool bare = tick.minor && tick.label.empty();  // gnuplot prints no label of a minor tick
+      const bool bare = tick.minor && tick.label.empty();  // gnuplot prints no label for a minor tick
       return fmt::format("{} {:.12g} {}", quoted(tick.label), tick.at, bare ? 1 : 0);
     });
     script_.line("set {}tics ({}) {} {}", name, ticks, script_.font(tick_size), offset);
   }
 
   void palette(const Panel& panel) {
-    // Light is little: from pale yellow to dark blue, readable in grey too.
+    // Small values are light: from pale yellow to dark blue, also readable in grey.
     script_.line("set palette defined (0 '#ffffd9', 0.3 '#7fcdbb', 0.6 '#1d91c0', 1 '#081d58')");
     script_.line("set cbrange [{:.12g}:{:.12g}]\nunset colorbox", panel.z.low, panel.z.high);
   }
 
-  /// The colours of a map as a plot of their own: those that gnuplot draws beside a plot show the paper between them.
+  /// Draws the colour bar of a map as a plot of its own, because the one of gnuplot shows gaps between its colours.
   void colour_bar(const Panel& panel, double right, double top, double bottom) {
     constexpr int strips = 200;
     const double left = right + colours_gap;
     script_.line("unset label\nunset key\nunset grid\nunset xtics\nunset ytics");
     script_.line("$colours << EOD");
-    for (int k = 0; k < strips; ++k) {  // each reaches up below the next ones
+    for (int k = 0; k < strips; ++k) {  // each strip extends upwards below the next ones
       const double low = panel.z.low + (panel.z.high - panel.z.low) * k / strips;
       script_.line("0 {0:.9g} 0 1 {0:.9g} {1:.9g} {2:.9g}", low, panel.z.high,
                    low + 0.5 * (panel.z.high - panel.z.low) / strips);
@@ -296,7 +296,7 @@ class PageWriter {
     script_.line("unset y2tics");
   }
 
-  /// Names of the series in the header, ending at `right`: they cover no data.
+  /// Draws the names of the series in the header, ending at `right`, so that they cover no data.
   void key(const Panel& panel, double right, double top) {
     const KeyShape shape = key_of(panel, width_);
     if (shape.rows == 0) {
@@ -325,7 +325,7 @@ class PageWriter {
   double left_of_box_ = 0;
   double right_of_box_ = 2.5;
   double below_ = below_box;
-  double width_ = 0;  // of a box
+  double width_ = 0;  // width of a box
 };
 
 }  // namespace
@@ -343,7 +343,7 @@ std::string gnuplot_script(const Page& page, Format format) { return PageWriter(
 void draw(const std::vector<Drawing>& drawings) {
   static std::atomic<bool> font_is_known{false};
   std::vector<std::string> scripts;
-  bool needs_font = false;  // what SVG draws with is up to whoever shows it
+  bool needs_font = false;  // for SVG the viewer provides the font
   for (const Drawing& drawing : drawings) {
     for (const std::filesystem::path& file : drawing.files) {
       scripts.push_back(gnuplot_script(drawing.page, format_of(file)));

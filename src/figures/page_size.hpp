@@ -1,4 +1,4 @@
-// --size and --dpi of a figure: texts in, millimetres and pixels out.
+// Reads --size and --dpi of a figure.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace hamflow {
 /// @returns what is wrong with the text, "found ...; allowed ..."; empty if nothing is
 std::string read_page_size(const std::string& text, figures::PageOptions& page);
 
-/// Why a file of that name cannot have so many pixels to the inch; empty if it can.
+/// Explains why a file of that name cannot have this resolution; empty if it can.
 std::string refused_dpi(int dpi, const std::filesystem::path& file, const figures::PageOptions& page);
 
 }  // namespace hamflow

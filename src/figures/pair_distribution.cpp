@@ -14,10 +14,11 @@ namespace {
 using std::numbers::pi;
 using Point = std::array<double, 3>;
 
-/// Particles by cells at least r_max wide: all within r_max of one are in its cell and those around it.
+/// Sorts particles into cells at least r_max wide. All particles within r_max of one are in its cell or a neighbouring
+/// cell.
 struct Cells {
   std::array<std::size_t, 3> count{1, 1, 1};
-  std::vector<std::size_t> first;  // of each cell, in `points`; one more at the end
+  std::vector<std::size_t> first;  // index in `points` of the first particle of each cell; one more entry at the end
   std::vector<Point> points;
   bool periodic;
 
@@ -34,7 +35,7 @@ struct Cells {
     }
     Point low{0, 0, 0};
     Point size{1, 1, 1};
-    // More cells than particles would be empty.
+    // With more cells than particles, most would be empty.
     const auto most = static_cast<double>(std::max<std::size_t>(
         1, static_cast<std::size_t>(std::pow(static_cast<double>(particles), 1.0 / static_cast<double>(space)))));
     for (std::size_t k = 0; k < space; ++k) {
@@ -61,7 +62,7 @@ struct Cells {
     points = std::move(sorted);
   }
 
-  /// The cells around one in a direction, itself among them, none twice.
+  /// Returns a cell and its neighbours in one direction, each once.
   std::vector<std::size_t> around(std::size_t at, std::size_t k) const {
     std::vector<std::size_t> all;
     for (int d = -1; d <= 1; ++d) {
@@ -95,7 +96,7 @@ std::vector<std::int64_t> pair_counts(const std::vector<double>& q, std::size_t 
         double square = 0;
         for (std::size_t k = 0; k < 3; ++k) {
           double d = std::abs(p[k] - cells.points[j][k]);
-          if (d > half[k]) d = std::abs(d - whole[k]);  // without a box d - 0
+          if (d > half[k]) d = std::abs(d - whole[k]);  // without a periodic box both are 0
           square += d * d;
         }
         if (!(square < most)) continue;
@@ -132,8 +133,8 @@ double Region::volume() const {
 
 double Region::shortest() const { return radius > 0 ? 2 * radius : *std::min_element(edges.begin(), edges.end()); }
 
-/// The integral, over all vectors of length up to r, of the volume that a region shares with itself moved by the
-/// vector, over V^2. In a box this volume is prod (a_k - |x_k|), for vectors shorter than the shortest edge.
+/// Returns 1/V^2 times the integral, over all vectors of length up to r, of the volume that a region shares with itself
+/// moved by the vector. In a box this volume is prod (a_k - |x_k|), for vectors shorter than the shortest edge.
 double Region::share_within(double r) const {
   if (periodic) return ball(r, space) / volume();
   if (radius > 0) {

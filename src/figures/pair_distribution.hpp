@@ -1,4 +1,4 @@
-// How far the particles of a gas are from each other.
+// Distances between the particles of a gas.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace hamflow::figures {
 
-/// Pairs by their distance: bin k has those from k r_max/bins on, below (k + 1) r_max/bins. In a periodic box a pair is
-/// as far apart as its nearest images. Found cell by cell, in a time that is proportional to the pairs within r_max.
-/// @param q particle by particle   @param space 2 or 3   @param edges of a periodic box, with r_max at most half the
-/// shortest; empty: none
+/// Counts pairs by distance: bin k contains distances from k r_max/bins to (k + 1) r_max/bins. In a periodic box the
+/// distance of a pair is that of its nearest images. The time is proportional to the number of pairs within r_max.
+/// @param q positions, particle by particle   @param space 2 or 3   @param edges edges of a periodic box, with r_max at
+/// most half the shortest; empty: no box
 std::vector<std::int64_t> pair_counts(const std::vector<double>& q, std::size_t space, const std::vector<double>& edges,
                                       double r_max, std::size_t bins);
 
-/// What holds the particles, as far as their distances are concerned; of no container the box around them all.
+/// The volume that contains the particles. Without a container it is the smallest box around them.
 struct Region {
   bool periodic = false;
-  double radius = 0;            // of a circle or sphere; 0: a box
-  std::vector<double> edges{};  // of a box
+  double radius = 0;            // radius of a circle or sphere; 0: a box
+  std::vector<double> edges{};  // edges of a box
   std::size_t space = 2;
 
   double volume() const;
-  double shortest() const;  // edge, or diameter
-  /// The share of pairs of points, spread evenly over the region, that are at most r apart; r at most shortest() / 2 in
-  /// a periodic box, else shortest().
+  double shortest() const;  // shortest edge, or diameter
+  /// Returns the fraction of pairs of points, spread evenly over the region, whose distance is at most r. r is at most
+  /// shortest() / 2 in a periodic box, otherwise shortest().
   double share_within(double r) const;
 };
 Region region_of(const FigureParticles& of, const std::vector<double>& q);

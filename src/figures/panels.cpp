@@ -10,12 +10,12 @@
 namespace hamflow::figures {
 
 namespace {
-constexpr std::size_t most_dots = 20000;        // of a cloud
-constexpr std::size_t most_dots_on_line = 200;  // more would hide the line
+constexpr std::size_t most_dots = 20000;        // in a scatter plot
+constexpr std::size_t most_dots_on_line = 200;  // more dots would hide the line
 constexpr std::size_t most_path_points = 12000;
-constexpr std::size_t page_columns = 400;  // two tenths of a millimetre wide in one column of a journal
+constexpr std::size_t page_columns = 400;  // columns of 0.2 mm in a journal's column
 
-/// Whether no axis could show a path to be more than a point: what moves by rounding alone is at rest.
+/// Returns whether a path looks like a point on any axes, also if it only moves by rounding.
 bool is_point(const Curve& curve) {
   constexpr double rounding = 1e-14;
   Extent x;
@@ -28,7 +28,8 @@ bool is_point(const Curve& curve) {
   };
   return !curve.x.empty() && is_short(x) && is_short(y);
 }
-/// Whether a line over the samples would fill the paper: whether it turns several times in each column.
+/// Returns whether a line over the samples would fill the area, because it turns several times in each column of the
+/// page.
 bool is_field(const Curve& curve) {
   std::size_t turns = 0;
   for (std::size_t k = 2; k < curve.y.size(); ++k) {
@@ -44,7 +45,7 @@ Series series_of(const Figure& figure, std::size_t run) {
 }
 
 namespace {
-/// A line without length would leave no ink.
+/// Draws a point, because a line without length would be invisible.
 Series point_of(const Curve& track, Series how) {
   how.ink = Ink::place;
   how.curve = {{track.x.front()}, {track.y.front()}};
@@ -68,7 +69,7 @@ Series track_of(const Curve& track, Series how) {
 bool is_whole_run(const FigureSamples& first_steps, const FigureData& data) {
   if (first_steps.t.empty() || data.t.empty()) return true;
   const double end = std::isfinite(data.end) ? data.end : data.t.back();
-  constexpr double rounding = 1e-9;  // of a time that is a sum of steps
+  constexpr double rounding = 1e-9;  // rounding of a time that is a sum of steps
   return std::abs(first_steps.t.back()) >= (1 - rounding) * std::abs(end);
 }
 
@@ -95,7 +96,7 @@ std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vecto
   std::vector<Series> all;
   for (std::size_t k = 0; k < tracks.size() && !drawn.whole_run; ++k) {
     if (how[k].ink != Ink::fine_dots && how[k].ink != Ink::place) continue;
-    Series& dots = all.emplace_back(how[k]);  // below the line: where the rest of the run is
+    Series& dots = all.emplace_back(how[k]);  // drawn below the line, they show the rest of the run
     dots.ink = Ink::fine_dots;
     dots.name.clear();
     dots.opacity = 0.5;

@@ -1,4 +1,4 @@
-// What several kinds of figures draw alike: tracks, curves over time, axes of one scale, names of energies.
+// Elements that several kinds of figures share: tracks, curves over time, axes with one scale, names of energies.
 #pragma once
 
 #include <string>
@@ -13,66 +13,67 @@
 
 namespace hamflow::figures {
 
-constexpr std::size_t most_separate_dots = 40;  // on a line over a page; more would run into each other
+constexpr std::size_t most_separate_dots = 40;  // dots on a line over a page; more would overlap
 inline const std::string energy_name = "{/:Italic H}";
 inline const std::string energy_of_time =
-    " − ∫ ∂{/:Italic H}/∂{/:Italic t d}{/:Italic t}";  // follows it for H(q, p, t)
+    " − ∫ ∂{/:Italic H}/∂{/:Italic t d}{/:Italic t}";  // follows energy_name if H depends on t
 inline const std::string energy_start = "{/:Italic H}_0";
 
-/// How the n-th of `count` runs is drawn, with its name in the legend; one alone has none.
+/// Returns how run number `run` is drawn, with its name in the legend. A single run has no name.
 Series series_of(const Figure& figure, std::size_t run);
 
-/// The samples of a path: a line where chords follow it, else dots.
+/// Returns the samples of a path, as a line if chords follow the path, otherwise as dots.
 Series track_of(const Curve& track, Series how);
-/// Whether the first steps that are drawn for a run are all of its steps.
+/// Returns whether the stored first steps of a run are all of its steps.
 bool is_whole_run(const FigureSamples& first_steps, const FigureData& data);
-/// Lines over the first steps of runs, in place of lines over samples that lie too far apart.
+/// Whether lines show the first steps of runs, in place of lines over samples that are too far apart.
 struct Openings {
-  bool whole_run = false;  // no sample is behind them
-  bool any = false;        // whether they were drawn
+  bool whole_run = false;  // the first steps are the whole run
+  bool any = false;        // such lines were drawn
 };
-/// Those of a figure, before any is drawn.
+/// Returns the state for a figure before any path is drawn.
 Openings openings_of(const Figure& figure);
-/// The paths of one panel. Where no line follows any of them, but one follows the first_steps of each, these are drawn
-/// over the samples as dots, and `drawn.any` becomes true: a note about the first steps holds for all paths or for
-/// none.
-/// @param how one for each track   @param openings one for each track, empty where unknown
+/// Draws the paths of one panel. If lines follow none of them, but follow the first_steps of each, these lines are
+/// drawn over dots at the samples, and `drawn.any` becomes true. All paths are treated alike, so that a note about the
+/// first steps holds for all of them.
+/// @param how one for each track   @param openings first steps for each track, empty if unknown
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
                               std::vector<Series> how, Openings& drawn);
-/// What is drawn in place of samples may reach further than they do.
+/// Extends x and y to the drawn series, which may reach further than the samples.
 void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y);
-/// "line: the first steps, to t = 12 of 300", of figures with first_steps; nothing where that is all of the run.
+/// Adds a note such as "line: the first steps, to t = 12 of 300" to a figure with first_steps, unless these are the
+/// whole run.
 void note_opening(Page& page, const FigureData& data);
-/// "lines join 3 samples": of lines over samples between which the motion is another one than their chords.
+/// Returns a note such as "lines join 3 samples", for lines between samples that the motion does not follow.
 std::string joined_note(std::size_t samples);
-/// Whether a curve over time turns back from sample to sample, or has a few samples alone. Turns of a tenth of its
-/// range count: rounding is none.
+/// Returns whether a curve over time turns from sample to sample, or has only a few samples. Only turns of at least a
+/// tenth of its range count, so rounding does not.
 bool is_sparse(const std::vector<double>& y);
-/// Dots about a millimetre apart in print, so that the exact line shows between them.
+/// Returns dots about a millimetre apart in print, so that the exact line is visible between them.
 Curve dots_on_line(const Curve& track, const Panel& panel);
 
-/// One line over all samples, or the field that they fill where they are too many for a line; dots as well while they
-/// can be told apart.
+/// Draws one line over all samples, or the area that they fill if there are too many for a line, and dots as long as
+/// they can be distinguished.
 void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector<double>& y, Series how);
 
-/// H of the first sample, 0 without samples.
+/// Returns H of the first sample; 0 without samples.
 double start_of(const std::vector<double>& energy);
-/// max(|H0|, |T0| + |V0|), 1 where it is none.
+/// Returns max(|H0|, |T0| + |V0|); 1 if that is not a positive number.
 double scale_of(const FigureData& data);
-/// Those that all runs of a figure share.
+/// Returns the units if all runs of a figure have the same ones.
 FigureUnits units_of(const Figure& figure);
-/// "x in AU"; the label alone where there is no unit.
+/// Returns a label such as "x in AU"; only the label if there is no unit.
 std::string in_unit(const std::string& label, const std::string& unit);
-/// The time, with its unit.
+/// Returns the label of time with its unit.
 std::string time_label(const Figure& figure);
-/// The scale as a symbol; empty where it is 1.
+/// Returns the symbol of the scale; empty if the scale is 1.
 std::string scale_name(const FigureData& data);
-/// (H - H0)/scale at every sample. Where the difference overflows the quotient need not.
+/// Returns (H - H0)/scale at every sample. It is computed without overflow of the difference.
 std::vector<double> relative_energy_error(const FigureData& data);
-/// (H - H0)/|H0|, in symbols.
+/// Returns (H - H0)/|H0| in symbols.
 std::string energy_error_label(const FigureData& data);
 
-/// "there is no sample with a finite position".
+/// Returns a text such as "there is no sample with a finite position".
 std::string no_samples(const std::string& quantity);
 
 }  // namespace hamflow::figures

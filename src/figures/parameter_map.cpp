@@ -16,7 +16,7 @@ namespace hamflow {
 namespace {
 using namespace figures;
 
-/// Positive values over more than two decades have a logarithmic axis.
+/// Makes an axis of values, logarithmic if they are positive and span more than two decades.
 Axis value_axis(const std::vector<double>& values, double margin) {
   Extent extent;
   extent.include(values);
@@ -24,7 +24,7 @@ Axis value_axis(const std::vector<double>& values, double margin) {
   return fit_axis(extent, margin, {7});
 }
 
-/// Numbers like 0.1, 0.05, 0.025 halve from one to the next.
+/// Makes an axis of keys. It is logarithmic for values such as 0.1, 0.05, 0.025, whose distances grow.
 Axis key_axis(const ParameterMap& map) {
   if (!map.x_words.empty()) return word_axis(map.x_words);
   Extent extent;
@@ -64,7 +64,7 @@ Panel curves_over(const ParameterMap& map) {
     std::vector<std::size_t>& own = members[names[n]];
     std::stable_sort(own.begin(), own.end(), [&](std::size_t a, std::size_t b) { return map.x[a] < map.x[b]; });
     const bool separate = own.size() <= most_separate_dots;
-    // Between words there is nothing that a line could show.
+    // A line between words would have no meaning.
     const Ink ink = !map.error.empty()     ? Ink::bars
                     : !map.x_words.empty() ? Ink::marks
                     : separate             ? Ink::marked
@@ -81,7 +81,7 @@ Panel curves_over(const ParameterMap& map) {
   return panel;
 }
 
-/// Different values in order, and between which numbers each has its field: halfway to its neighbours.
+/// The different values in order, and the edges of their rectangles, halfway between neighbours.
 struct Fields {
   std::vector<double> places;
   std::vector<double> edges;
@@ -101,8 +101,8 @@ struct Fields {
   }
 };
 
-/// A rectangle for each member. Each reaches below the next ones to its right and above it, which are drawn later:
-/// between rectangles that only touch, viewers show the paper.
+/// Makes a rectangle for each member. Each extends below the rectangles to its right and above it, which are drawn
+/// later, because viewers show gaps between rectangles that only touch.
 Series fields_of(const ParameterMap& map, const Fields& x, const Fields& y) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   const std::size_t rows = y.places.size();
@@ -153,7 +153,7 @@ void write_parameter_map(const ParameterMap& map, const std::filesystem::path& f
   page.panels[0].x_label = map.x_label;
   page.notes = map.notes;
   if (!map.y.empty()) page.width = 120;
-  constexpr std::size_t words_of_column = 24;  // upright, beside each other
+  constexpr std::size_t words_of_column = 24;  // upright words that fit next to each other
   if (map.x_words.size() > words_of_column) page.width = two_columns;
   draw(page, file);
 }

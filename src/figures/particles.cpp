@@ -13,7 +13,7 @@
 namespace hamflow::figures {
 
 namespace {
-constexpr std::uint64_t seed = 1738;  // any number: the same particles in every figure
+constexpr std::uint64_t seed = 1738;  // arbitrary but fixed, so that every figure shows the same particles
 }
 
 namespace {
@@ -26,7 +26,7 @@ std::size_t sample_nearest_to(const FigureData& data, double t) {
 
 OtherSample other_sample_at(const FigureData& data, double t) {
   const double nearest = data.t[sample_nearest_to(data, t)];
-  // n dt, and a time that is typed, are rounded: as scenarios compare them (run.record).
+  // n dt and a typed time are rounded, so they are compared as scenarios do (run.record).
   if (std::abs(nearest - t) <= 4 * 0x1p-52 * std::abs(t)) return {};
   const auto [first, last] = std::minmax({data.t.front(), data.t.back()});
   const std::string samples = "the " + std::to_string(data.t.size()) + " samples from " + shortest(first) + " to " +

@@ -1,4 +1,4 @@
-// What figures of particles draw alike: places at a time, what holds them, some of very many.
+// Elements that figures of particles share: positions at a time, containers, and a selection from very many particles.
 #pragma once
 
 #include <cstddef>
@@ -12,28 +12,29 @@
 
 namespace hamflow::figures {
 
-/// That there is no sample at a time, to rounding: which there are instead, or nothing where there is one.
+/// Describes the samples if none is at a given time, to rounding; empty if there is one.
 struct OtherSample {
-  std::string told{};  // "the 21 samples from 0 to 1; the nearest is at 0.5"
+  std::string told{};  // for example "the 21 samples from 0 to 1; the nearest is at 0.5"
   bool is_beyond = false;
 };
 OtherSample other_sample_at(const FigureData& data, double t);
-/// The sample nearest to each time.
+/// Returns the sample nearest to each time.
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times);
 
-/// At most `most` of `count` numbers, in order, one at random from each stretch, always the same: of particles that are
-/// numbered along a lattice an even stride would show some of its planes and hide the rest.
+/// Returns at most `most` of `count` indices in order, one at a pseudo-random place in each stretch, the same in every
+/// run. If particles are numbered along a lattice, indices at a constant distance would only show some planes of the
+/// lattice.
 std::vector<std::size_t> some_of(std::size_t count, std::size_t most);
-/// "20000 of 1000000 particles are drawn"; empty where all are.
+/// Returns a note such as "20000 of 1000000 particles are drawn"; empty if all are.
 std::string part_note(std::size_t drawn, std::size_t count);
 
-/// Each position moved by whole edges into a periodic box; of other containers as they are.
+/// Moves each position by whole edges into a periodic box; with other containers positions are unchanged.
 std::vector<double> folded(std::vector<double> positions, const FigureParticles& of);
 
-/// The outline of the circle or box, seen in a plane; of no container nothing.
+/// Returns the outline of the circle or box in a plane; empty without a container.
 Curve outline(const FigureParticles& of, Plane plane);
 
-/// {x} = a number, for a time.
+/// Returns a label of a time.
 std::string time_text(double t);
 
 }  // namespace hamflow::figures

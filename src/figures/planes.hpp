@@ -1,4 +1,4 @@
-// In which planes of space paths and places are drawn.
+// Planes of space in which paths and positions are drawn.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace hamflow::figures {
 
-/// The axes to the right and upwards, among the names of columns.
+/// Indices of the horizontal and the vertical axis in a list of names.
 using Plane = std::pair<std::size_t, std::size_t>;
 
-/// "x", "y" and, in space, "z".
+/// Returns "x", "y" and, in space, "z".
 std::vector<std::string> axes_of_space(std::size_t space);
 
-/// Those that --x and --y ask for; else all of space, or the first alone.
+/// Returns the planes that --x and --y choose; by default all planes of space, or only the first one.
 std::vector<Plane> chosen_planes(const FigureOptions& options, const std::vector<std::string>& names, bool first_alone);
 
 }  // namespace hamflow::figures

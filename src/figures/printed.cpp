@@ -11,13 +11,13 @@ namespace hamflow::figures {
 
 namespace {
 
-/// A point in pixels of the box.
+/// A point in units of pixels of the box.
 struct Pixel {
   double x = 0;
   double y = 0;
 };
 
-/// Where the points of a curve are printed; not finite where an axis has no place for them.
+/// Returns the printed positions of the points of a curve; not finite if an axis has no position for them.
 std::vector<Pixel> pixels_of(const Panel& panel, const Curve& curve, const PrintedBox& box) {
   const double across = box.width / box.pixel / (panel.x.high - panel.x.low);
   const double up = box.height / box.pixel / (panel.y.high - panel.y.low);
@@ -30,9 +30,9 @@ std::vector<Pixel> pixels_of(const Panel& panel, const Curve& curve, const Print
 
 bool is_finite(Pixel a) { return std::isfinite(a.x) && std::isfinite(a.y); }
 
-using Places = std::vector<std::size_t>;  // of points of a curve, in order
+using Places = std::vector<std::size_t>;  // indices of points of a curve, in order
 
-/// Of points that follow each other in one column of pixels the first, the lowest, the highest and the last.
+/// Keeps, of successive points in one column of pixels, the first, the lowest, the highest and the last.
 Places one_in_a_column(const std::vector<Pixel>& pixels, std::size_t begin, std::size_t end) {
   Places kept;
   for (std::size_t k = begin; k < end;) {
@@ -60,10 +60,10 @@ double distance_from_chord(Pixel point, Pixel a, Pixel b) {
   return std::hypot(point.x - a.x - part * dx, point.y - a.y - part * dy);
 }
 
-/// Leaves out points within a tenth of a pixel of the chord over them.
+/// Removes points within a tenth of a pixel of the chord over them.
 Places without_straight_parts(const std::vector<Pixel>& pixels, const Places& places) {
   constexpr double tolerance = 0.1;
-  constexpr std::size_t longest = 64;  // points below one chord: bounds the work
+  constexpr std::size_t longest = 64;  // points below one chord; bounds the work
   if (places.size() < 3) return places;
   Places kept{places.front()};
   std::size_t from = 0;
@@ -80,7 +80,7 @@ Places without_straight_parts(const std::vector<Pixel>& pixels, const Places& pl
   return kept;
 }
 
-/// How often a path enters each pixel of the box.
+/// Counts how often a path enters each pixel of the box.
 class Coverage {
  public:
   explicit Coverage(const PrintedBox& box)
@@ -88,10 +88,10 @@ class Coverage {
         high_(static_cast<std::size_t>(box.height / box.pixel) + 1),
         entries_(wide_ * high_) {}
 
-  /// Of a segment without its first pixel.
+  /// Pixels that a segment enters, without its first one.
   struct Entered {
     std::size_t pixels = 0;
-    std::size_t empty = 0;  // of these before
+    std::size_t empty = 0;  // number of those that were empty before
   };
   Entered add(Pixel a, Pixel b) {
     const double length = std::hypot(b.x - a.x, b.y - a.y);
@@ -111,13 +111,13 @@ class Coverage {
     return entered;
   }
 
-  /// Pixels that were entered.
+  /// Number of pixels that were entered.
   std::size_t pixels() const {
     return static_cast<std::size_t>(
         std::count_if(entries_.begin(), entries_.end(), [](std::uint32_t n) { return n > 0; }));
   }
 
-  /// Whether a fifth of the path lies in an area without gaps, wider than lines are.
+  /// Returns whether a fifth of the path lies in an area without gaps that is wider than lines are.
   bool fills_an_area() const {
     constexpr std::size_t around = 2;
     std::size_t entered = 0;
@@ -155,8 +155,8 @@ Curve points_of(const Curve& curve, const Places& places) {
   return part;
 }
 
-/// Stretches of finite points, each without what lies on a straight part.
-/// @param columns whether points in one column of pixels are an area: of a curve over time, not of one in the plane
+/// Returns stretches of finite points, without points on straight parts.
+/// @param columns whether points in one column of pixels fill an area, as for a curve over time, but not for a path
 std::vector<Places> branches_of(const std::vector<Pixel>& pixels, bool columns) {
   std::vector<Places> branches;
   for (std::size_t begin = 0; begin < pixels.size();) {
@@ -181,7 +181,7 @@ Curve joined_branches(const Curve& curve, const std::vector<Places>& branches) {
   return result;
 }
 
-/// The beginning of a path that enters no more than so many pixels.
+/// Returns the beginning of a path that enters at most `most` pixels.
 Curve beginning(const Curve& curve, const std::vector<Pixel>& pixels, const std::vector<Places>& branches,
                 const PrintedBox& box, std::size_t most) {
   Coverage coverage(box);
@@ -198,7 +198,7 @@ Curve beginning(const Curve& curve, const std::vector<Pixel>& pixels, const std:
   return result;
 }
 
-/// Without the segments that run over pixels that have ink already.
+/// Removes the segments that only run over pixels that already have ink.
 Curve drawn_once(const Curve& curve, const std::vector<Pixel>& pixels, const std::vector<Places>& branches,
                  const PrintedBox& box) {
   Coverage coverage(box);
@@ -209,8 +209,9 @@ Curve drawn_once(const Curve& curve, const std::vector<Pixel>& pixels, const std
     bool is_down = false;
     for (std::size_t k = 1; k < branch.size(); ++k) {
       const Coverage::Entered entered = coverage.add(pixels[branch[k - 1]], pixels[branch[k]]);
-      const bool is_end = result.x.empty() || k + 1 == branch.size();  // the first and the last are there
-      if (entered.pixels == 0 && !is_end) continue;                    // within a pixel: the pen stays as it is
+      const bool is_end = result.x.empty() || k + 1 == branch.size();  // the first and the last point are kept
+      // a segment within one pixel does not change whether the pen is down
+      if (entered.pixels == 0 && !is_end) continue;
       if (entered.empty == 0 && !is_end) {
         if (is_down) result.lift();
         is_down = false;
@@ -224,7 +225,7 @@ Curve drawn_once(const Curve& curve, const std::vector<Pixel>& pixels, const std
   return result;
 }
 
-/// One dot for each half of a pixel.
+/// Keeps one dot for each square of half a pixel.
 Curve separate_dots(const Curve& curve, const std::vector<Pixel>& pixels) {
   std::unordered_set<std::uint64_t> taken;
   Places kept;
@@ -261,7 +262,7 @@ std::vector<Series> printed(const Panel& panel, Series series, const PrintedBox&
   }
   std::size_t points = 0;
   for (const Places& branch : branches) points += branch.size();
-  constexpr std::size_t few = 1000;  // a path drawn once may have gaps of a pixel
+  constexpr std::size_t few = 1000;  // short paths are kept whole, because a path drawn once may have gaps of a pixel
   if (points <= few) {
     series.curve = joined_branches(series.curve, branches);
     return {series};
@@ -270,7 +271,7 @@ std::vector<Series> printed(const Panel& panel, Series series, const PrintedBox&
   once.curve = drawn_once(series.curve, pixels, branches, box);
   if (!coverage.fills_an_area()) return {once};
   constexpr double tint = 0.25;
-  constexpr std::size_t one_of = 8;  // pixels of the area has ink of the line
+  constexpr std::size_t one_of = 8;  // one pixel in this many has ink of the line
   once.opacity = tint;
   once.name.clear();
   series.curve = beginning(series.curve, pixels, branches, box, coverage.pixels() / one_of);

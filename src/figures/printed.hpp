@@ -1,4 +1,5 @@
-// What of a series paper can show. A figure holds no more points than its pixels carry, however many samples a run has.
+// Reduces a series to what print can show, so that the size of a figure depends on its pixels and not on the number of
+// samples.
 #pragma once
 
 #include <vector>
@@ -7,16 +8,17 @@
 
 namespace hamflow::figures {
 
-/// The panel's box in print.
+/// Size of the panel's box in print.
 struct PrintedBox {
   double width = 0;    // mm
   double height = 0;   // mm
-  double pixel = 0.1;  // mm, the smallest distance that is seen
+  double pixel = 0.1;  // smallest visible distance in mm
 };
 
-/// The same series with fewer points. Of a line each column of pixels keeps its first, least, largest and last point,
-/// and points on a straight part are left out; of dots on one pixel one is drawn. A path that runs over itself is drawn
-/// once. One that fills an area becomes two series: the tinted area, and over it the first turns of the path.
+/// Returns the same series with fewer points. For a line, each column of pixels keeps its first, lowest, highest and
+/// last point, and points on a straight part are removed. Of dots on one pixel, one is kept. A path that runs over
+/// itself is drawn once. A path that fills an area becomes two series: the tinted area, and the first turns of the path
+/// over it.
 std::vector<Series> printed(const Panel& panel, Series series, const PrintedBox& box);
 
 }  // namespace hamflow::figures

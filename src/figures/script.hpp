@@ -1,4 +1,4 @@
-// A script for gnuplot in the making, in millimetres from the upper left corner of the page.
+// Builds a script for gnuplot. Positions are in millimetres from the upper left corner of the page.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ class Script {
  public:
   Script(Format format, double width) : format_(format), width_(width) {}
 
-  /// The height of the page, known once its parts are laid out.
+  /// Sets the height of the page, which is known once its parts are laid out.
   void set_height(double height) { height_ = height; }
   double width() const { return width_; }
   double height() const { return height_; }
@@ -27,14 +27,14 @@ class Script {
     text_ += '\n';
   }
   void add(const std::string& text) { text_ += text; }
-  /// Fractions of the page, which is how gnuplot counts "screen", there from the bottom.
+  /// Convert positions to fractions of the page, which gnuplot calls "screen" and counts from the bottom.
   double across(double x) const { return x / width_; }
   double up(double y) const { return 1 - y / height_; }
   std::string font(double points) const { return figures::font(format_, points); }
   Format format() const { return format_; }
-  /// Enhanced text; `how` aligns and turns it.
+  /// Writes enhanced text; `how` contains its alignment and rotation.
   void label(const std::string& enhanced, double x, double y, const char* how, double points);
-  /// The plot that follows fills this rectangle.
+  /// Makes the next plot fill this rectangle.
   void box(double left, double right, double top, double bottom);
 
   std::string text() && { return std::move(text_); }
@@ -46,7 +46,7 @@ class Script {
   std::string text_;
 };
 
-/// The whole script of a page.   @throws Error where the page has a height, and the panels do not fit into it
+/// Returns the script of a page.   @throws Error if the page has a height into which the panels do not fit
 std::string gnuplot_script(const Page& page, Format format);
 
 }  // namespace hamflow::figures

@@ -22,7 +22,7 @@ std::optional<Format> known_format(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
-/// SVG counts pixels, 96 to the inch.
+/// SVG counts in pixels, 96 per inch.
 double font_size(Format format, double points) { return format == Format::svg ? points * 4 / 3 : points; }
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace hamflow::figures {
 namespace {
 const char* const replacement = "\uFFFD";
 
-/// Bytes of the well-formed UTF-8 character at `at`, 0 if there is none.
+/// Returns the number of bytes of the well-formed UTF-8 character at `at`; 0 if there is none.
 std::size_t character_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t k) {
     return at + k < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[at + k])) : 0U;
@@ -30,7 +30,7 @@ std::size_t character_length(const std::string& text, std::size_t at) {
   return too_long || no_character ? 0 : length;
 }
 
-/// The characters of a text, made printable.
+/// Returns the characters of a text, made printable.
 std::vector<std::string> characters(const std::string& text) {
   std::vector<std::string> result;
   for (std::size_t at = 0; at < text.size();) {
@@ -55,7 +55,7 @@ const std::map<std::string, std::string>& greek() {
   return letters;
 }
 
-/// A name cut into its letters and what follows: an index, an underscore and an index, or nothing.
+/// A name split into its letters and its index, which follows with or without an underscore, or is empty.
 struct Name {
   std::string base;
   std::string index;
@@ -66,11 +66,11 @@ Name cut(const std::string& name) {
   while (end < name.size() && std::isalpha(static_cast<unsigned char>(name[end]))) ++end;
   Name result{name.substr(0, end), name.substr(end)};
   if (result.index.size() > 1 && result.index[0] == '_') result.index.erase(0, 1);
-  // The momentum of theta_1 is p_theta_1: in an index its own index stands without underscore.
+  // The momentum of theta_1 is p_theta_1. Within the index theta_1 the underscore is removed.
   const std::size_t digits = result.index.find_last_not_of("0123456789") + 1;
   if (digits > 1 && digits < result.index.size() && result.index[digits - 1] == '_') result.index.erase(digits - 1, 1);
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0; };
-  if (!std::all_of(result.index.begin(), result.index.end(), plain)) return {};  // not a name but a text
+  if (!std::all_of(result.index.begin(), result.index.end(), plain)) return {};  // it is a text instead of a name
   return result;
 }
 
@@ -79,7 +79,7 @@ std::string letter(const std::string& base) {
   return found == greek().end() ? base : found->second;
 }
 
-/// phi1: the letter and its number.
+/// Writes an index such as phi1 as the Greek letter and its number.
 std::string greek_index(const std::string& index) {
   const Name parts = cut(index);
   return parts.base.empty() ? index : letter(parts.base) + parts.index;
@@ -172,7 +172,7 @@ std::size_t printed_length(const std::string& enhanced) {
     if (enhanced.compare(at, italic_begins.size(), italic_begins) == 0) at += italic_begins.size() - 1;
     if (c == '^' || c == '_' || c == '{' || c == '}') continue;
     if (c == '\\') ++at;
-    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // a later byte of a character
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // not the first byte of a character
     if (!continues) ++count;
   }
   return count;
@@ -184,7 +184,7 @@ std::vector<std::string> shortened(const std::vector<std::string>& texts, std::s
   const auto is_long = [&](const auto& text) { return text.size() > most; };
   const auto first = std::find_if(all.begin(), all.end(), is_long);
   if (first == all.end()) return texts;
-  std::size_t common = first->size();  // characters with which the long ones begin
+  std::size_t common = first->size();  // number of characters with which all long texts begin
   for (const auto& text : all) {
     if (!is_long(text) || text == *first) continue;
     const auto differ = std::mismatch(first->begin(), first->end(), text.begin(), text.end()).first;
@@ -245,7 +245,8 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width, std
 }
 
 namespace {
-/// The parts of enhanced text that cannot be broken: characters and groups in braces, with what is raised or lowered.
+/// Splits enhanced text into parts that cannot be broken: characters, and groups in braces with their superscripts and
+/// subscripts.
 std::vector<std::string> unbroken_parts(const std::string& text) {
   std::vector<std::string> parts;
   const auto end_of = [&](std::size_t at) {

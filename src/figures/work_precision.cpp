@@ -16,7 +16,7 @@ namespace {
 using namespace figures;
 using Column = std::vector<double> WorkCurve::*;
 
-/// A method with its mark: no two methods have the same colour and shape.
+/// A method with its mark. No two methods have the same colour and shape.
 struct Entry {
   const WorkCurve* curve = nullptr;
   Mark mark;
@@ -25,8 +25,8 @@ struct Entry {
 /// Methods whose order varies come last.
 int rank(const WorkCurve& curve) { return curve.order > 0 ? curve.order : std::numeric_limits<int>::max(); }
 
-/// By order. Colours follow each other in an order in which neighbours differ; shapes are filled for explicit methods
-/// and open for implicit ones, whose lines are dashed, so that grey print shows the difference too.
+/// Sorts methods by order and gives them marks. Successive colours differ clearly. Shapes are filled for explicit
+/// methods and open for implicit ones, whose lines are dashed, so that the difference is also visible in grey.
 std::vector<Entry> marked(const std::vector<WorkCurve>& curves) {
   constexpr std::array<const char*, 11> colours{"#0072b2", "#d55e00", "#009e73", "#b0489c", "#e69f00", "#56b4e9",
                                                 "#7b5b1e", "#4d4d4d", "#8a2f00", "#7a5cc0", "#6b8e23"};
@@ -39,7 +39,7 @@ std::vector<Entry> marked(const std::vector<WorkCurve>& curves) {
   std::vector<Entry> all;
   for (std::size_t n = 0; n < sorted.size(); ++n) {
     const bool is_explicit = sorted[n]->explicit_step;
-    // 11 colours and 5 shapes have no common factor: 55 pairs before one repeats.
+    // 11 colours and 5 shapes have no common factor, so pairs repeat only after 55 methods.
     all.push_back({sorted[n], {colours[n % 11], (is_explicit ? filled : open)[n % 5], is_explicit ? 1 : 2}});
   }
   return all;
@@ -56,7 +56,7 @@ struct Quantity {
   Column column;
 };
 
-/// Each error of a curve that a logarithmic axis can show.
+/// Visits each error of a curve that a logarithmic axis can show.
 template <class Use>
 void for_each_error(const WorkCurve& curve, Column column, const Use& use) {
   for (const double x : curve.*column) {
@@ -64,8 +64,8 @@ void for_each_error(const WorkCurve& curve, Column column, const Use& use) {
   }
 }
 
-/// Beyond some hundred times the motion itself nothing is computed at all. The best that a method comes to is shown all
-/// the same, unless it has left the motion so far behind that nothing could be read of the others.
+/// Returns the upper end of the axis. Errors more than some hundred times the size of the motion are cut off. But the
+/// smallest error of each method is shown, unless it is so large that the other errors would become unreadable.
 double top_of_errors(const std::vector<Entry>& entries, Column column, double size) {
   constexpr double hundreds = 2.5;
   constexpr double farthest = 16;
@@ -93,7 +93,7 @@ Panel panel_of(const std::vector<Entry>& entries, const Quantity& work, const Qu
   return panel;
 }
 
-/// Errors below it mean nothing. @returns whether the panel shows so little
+/// Draws the level below which errors mean nothing. @returns whether the panel shows it
 bool add_floor(Panel& panel, double floor) {
   if (!(floor > 0)) return false;
   const double level = panel.y.place(floor);
@@ -103,7 +103,7 @@ bool add_floor(Panel& panel, double floor) {
   return true;
 }
 
-/// The methods by order, each with its mark.
+/// Lists the methods by order, each with its mark.
 std::vector<LegendLine> legend_of(const std::vector<Entry>& entries) {
   std::vector<LegendLine> legend;
   int order = -1;
@@ -122,11 +122,11 @@ bool drawable(const WorkCurve& curve) {
   return std::any_of(curve.error.begin(), curve.error.end(), [](double x) { return std::isfinite(x) && x > 0; });
 }
 
-/// "failed: rk4 2 of 6", of the methods that have numbers of a kind; nothing where none has.
+/// Adds a note such as "failed: rk4 2 of 6" for the methods with such numbers; none if there are no such methods.
 template <class Is>
 void note_numbers(Page& page, const std::string& kind, const std::vector<WorkCurve>& curves, Column column,
                   const Is& is) {
-  constexpr std::size_t width = 110;  // characters
+  constexpr std::size_t width = 110;  // in characters
   std::string all;
   for (const WorkCurve& curve : curves) {
     const std::vector<double>& numbers = curve.*column;
@@ -139,7 +139,7 @@ void note_numbers(Page& page, const std::string& kind, const std::vector<WorkCur
   for (const std::string& line : wrapped(kind + ": " + all, width, 3)) page.notes.push_back(escaped(line));
 }
 
-/// What the panels leave out.
+/// Adds notes on what the panels leave out.
 void note_what_is_missing(Page& page, const WorkPrecision& data) {
   const auto beyond = [](const Panel& panel) {
     return [top = panel.y.high](double x) { return std::isfinite(x) && x > 0 && std::log10(x) > top; };

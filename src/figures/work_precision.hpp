@@ -1,4 +1,4 @@
-// **Work-precision figure**: what accuracy costs, method by method, on logarithmic axes.
+// **Work-precision figure**: the work that an accuracy costs, for each method, on logarithmic axes.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace hamflow {
 
-/// One method; one entry per step length, NaN where a run failed.
+/// Data of one method, with an entry for each step size; NaN if a run failed.
 struct WorkCurve {
   std::string name;
-  int order = 0;  // 0: it varies along the curve
+  int order = 0;  // 0: the order varies along the curve
   bool explicit_step = true;
   std::vector<double> evaluations;
   std::vector<double> seconds;
@@ -23,14 +23,14 @@ struct WorkCurve {
 struct WorkPrecision {
   std::string title;
   std::vector<WorkCurve> curves;
-  double floor = 0;  // the uncertainty of the reference: errors below it mean nothing
-  double size = 1;   // of the motion, its largest coordinate or momentum
+  double floor = 0;  // uncertainty of the reference; errors below it mean nothing
+  double size = 1;   // size of the motion, its largest coordinate or momentum
 };
 
-/// @throws Error where there is no error to draw
+/// @throws Error if there is no error to draw
 figures::Page work_precision_page(const WorkPrecision& data);
-/// Writes svg, pdf or png by the extension of `file`.
-/// @throws Error when the extension or the data do not fit   @throws FileError when gnuplot or the file fails
+/// Writes SVG, PDF or PNG, by the extension of `file`.
+/// @throws Error if the extension or the data do not fit   @throws FileError if gnuplot or writing fails
 void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file);
 
 }  // namespace hamflow

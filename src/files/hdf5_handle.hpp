@@ -1,4 +1,4 @@
-// Owning handles for the HDF5 C API. The C++ API of HDF5 1.10 has no SWMR calls, hence the C API.
+// Owning handles for the C API of HDF5. The C++ API of HDF5 1.10 has no SWMR calls.
 #pragma once
 
 #include <hdf5.h>
@@ -10,7 +10,7 @@
 
 namespace hamflow {
 
-/// Closes its identifier with the function it was made for.
+/// Closes its identifier with the function that belongs to its kind.
 class Hdf5Handle {
  public:
   Hdf5Handle() = default;
@@ -28,7 +28,7 @@ class Hdf5Handle {
   ~Hdf5Handle() {
     if (id_ >= 0) close_(id_);
   }
-  /// Closes now, so that what cannot be written any more is an error. @throws FileError
+  /// Closes now, so that data that cannot be written cause an error. @throws FileError
   void close_now(const std::string& what) {
     const hid_t id = std::exchange(id_, -1);
     if (id >= 0 && close_(id) < 0) throw FileError("HDF5: cannot " + what);

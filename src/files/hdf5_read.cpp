@@ -35,7 +35,7 @@ bool is_compressed(hid_t creation) {
   return false;
 }
 
-/// As it is now: a writer may have made it longer since it was opened.
+/// Returns the current size of the file: a writer may have made it longer since it was opened.
 std::uintmax_t size_of_file(hid_t object) {
   char name[4096] = "";
   if (H5Fget_name(object, name, sizeof name) <= 0) return 0;
@@ -44,10 +44,10 @@ std::uintmax_t size_of_file(hid_t object) {
   return unknown ? 0 : size;
 }
 
-/// More than this cannot be in the file, unless it is nothing but fill values.
+/// Returns an upper bound for the data of a dataset in the file; only fill values can exceed it.
 std::uintmax_t most_bytes_of(hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose, "read how a dataset is stored");
-  constexpr std::uintmax_t best_ratio = 1032;  // of deflate
+  constexpr std::uintmax_t best_ratio = 1032;  // best compression ratio of deflate
   const std::uintmax_t stored = std::min<std::uintmax_t>(H5Dget_storage_size(dataset), size_of_file(dataset));
   return stored * (is_compressed(creation) ? best_ratio : 1);
 }
@@ -56,7 +56,7 @@ std::uintmax_t most_bytes_of(hid_t dataset) {
 
 void silence_hdf5() {
   static const bool once = [] {
-    // Closing at exit what a full disk kept from being closed crashes the library. Every file is closed where it ends.
+    // At exit HDF5 would close files that a full disk kept open, and crash. hamflow closes every file itself.
     H5dont_atexit();
     return true;
   }();
@@ -68,7 +68,7 @@ Hdf5Handle open_to_read(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
   hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
-  // A file that h5py has open in this process can be opened in the same way only.
+  // If h5py has opened the file in this process, it can only be opened in the same way.
   const bool others_are_open = H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_FILE) > 0;
   if (file < 0 && others_are_open) file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   return {file, H5Fclose, "open " + path.string()};
@@ -120,7 +120,8 @@ StoredData::StoredData(Hdf5Handle object, Hdf5Handle type, Hdf5Handle space, std
   if (rank < 0) throw FileError("HDF5: the rank of " + name_ + " cannot be read");
   shape_.resize(static_cast<std::size_t>(rank));
   if (rank > 0) check_hdf5(H5Sget_simple_extent_dims(space_, shape_.data(), nullptr), "read the size of " + name_);
-  constexpr hsize_t most_values = hsize_t{1} << 42;  // beyond every disk, and products with a size in bytes stay whole
+  // more than any disk holds, and multiplied by the size of a value it does not overflow
+  constexpr hsize_t most_values = hsize_t{1} << 42;
   hsize_t values = 1;
   for (const hsize_t size : shape_) {
     if (size > most_values / values) throw FileError("HDF5: " + name_ + " states an impossible size");
@@ -161,7 +162,8 @@ std::size_t StoredData::width() const {
 }
 
 void StoredData::check_size(std::size_t values, std::size_t bytes_each) const {
-  constexpr std::uintmax_t never_too_much = std::uintmax_t{1} << 24;  // twice what a writer may have in flight
+  // twice the data that a writer may not have written yet
+  constexpr std::uintmax_t never_too_much = std::uintmax_t{1} << 24;
   const bool overflows = bytes_each > (std::size_t{1} << 20) && values > (std::size_t{1} << 20);
   const std::uintmax_t bytes = overflows ? 0 : std::uintmax_t{values} * bytes_each;
   if (!overflows && bytes <= never_too_much) return;
@@ -185,7 +187,7 @@ std::vector<char> StoredData::read_rows(hid_t as, std::size_t first, std::size_t
   check_size(count * width(), std::max(size, H5Tget_size(type_)));
   std::vector<char> bytes(count * width() * size);
   if (bytes.empty()) return bytes;
-  if (!is_dataset_) {  // always read as a whole
+  if (!is_dataset_) {  // attributes are only read as a whole
     if (first != 0 || count != rows()) throw FileError("HDF5: a part of " + name_ + " cannot be read");
     check_hdf5(H5Aread(object_, as, bytes.data()), "read " + name_);
     return bytes;
@@ -201,7 +203,7 @@ std::vector<char> StoredData::read_rows(hid_t as, std::size_t first, std::size_t
   }
   const Hdf5Handle memory = space_of_rows(counts);
   const auto read = [&] { return H5Dread(object_, as, memory, part, H5P_DEFAULT, bytes.data()); };
-  // A chunk that its writer is writing at this moment has another checksum: a moment later it is whole.
+  // If a writer is just writing a chunk, its checksum is wrong; a moment later the chunk is complete.
   for (int attempt = 1; attempt < 3; ++attempt) {
     if (read() >= 0) return bytes;
   }

@@ -20,7 +20,7 @@ FileError cannot(const std::string& what, const fs::path& path, int error) {
 
 fs::path folder_of_file(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-/// Where a link leads, so that the link itself stays.
+/// Returns the target of a link, so that the link itself is kept.
 fs::path followed(const fs::path& file) {
   std::error_code none;
   const fs::path there = fs::is_symlink(file, none) ? fs::weakly_canonical(file, none) : file;
@@ -36,7 +36,7 @@ fs::path hidden_name(const fs::path& file) {
   return folder_of_file(file) / ("." + file.filename().string() + "." + std::to_string(getpid()) + ".part");
 }
 
-/// -1 where it is not possible; errno says why.
+/// Returns -1 on failure; errno gives the reason.
 int new_descriptor(const fs::path& file) {
   if (unlink(file.c_str()) != 0 && errno != ENOENT) return -1;
   return open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -55,7 +55,8 @@ int open_new_file(const fs::path& file) {
 void force_to_disk(const fs::path& file_or_folder) {
   const int descriptor = open(file_or_folder.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw cannot("open", file_or_folder, errno);
-  const bool forced = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;  // pipes and such have no disk
+  // fsync fails for pipes and read-only file systems, where nothing has to be forced
+  const bool forced = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
   const int error = errno;
   close(descriptor);
   if (!forced) throw cannot("force to the disk", file_or_folder, error);

@@ -1,6 +1,6 @@
-// A file is whole or it is not there: it is written under another name, forced to the disk and renamed. A kill, a full
-// disk or an error on the way leaves what was there before. The file under the other name is always a new one: a link
-// that somebody has put there is removed, and never followed.
+// Writes a file as a whole or not at all: it is written under another name, forced to the disk, and renamed. A kill, a
+// full disk or an error leaves the previous file. The other name always gets a new file: a link with that name is
+// removed and never followed.
 #pragma once
 
 #include <cstddef>
@@ -11,31 +11,32 @@
 
 namespace hamflow {
 
-/// The name under which a file of a run's folder is written first. The folder belongs to one writer at a time, so that
-/// the name is always the same, and what a kill leaves under it is replaced by the next run.
+/// Returns the name under which a file in a run's folder is first written. Only one writer uses the folder at a time,
+/// so the name is always the same, and the next run replaces a file that a kill has left.
 std::filesystem::path next_name(const std::filesystem::path& file);
 
-/// Opens a new file for writing in the place of what had its name; a link is removed, not followed.
+/// Opens a new file for writing in place of any file of that name. A link is removed, not followed.
 /// @return the descriptor   @throws FileError
 int open_new_file(const std::filesystem::path& file);
 
 class WholeFile {
  public:
-  /// A file that somebody else names, e.g. with -o: written beside it under a name of this process, hidden. A device or
-  /// a pipe is written directly, and a link is followed: it stays, and the file that it leads to is replaced.
+  /// Writes a file that the user names, for example with -o. It is first written in the same folder under a hidden name
+  /// that contains the process id. A device or a pipe is written directly. A link is kept, and the file that it points
+  /// to is replaced.
   explicit WholeFile(const std::filesystem::path& file);
-  /// A file written under the name `part`.
+  /// Writes a file first under the name `part`.
   WholeFile(std::filesystem::path file, std::filesystem::path part);
-  /// Removes what was written unless it was put in place.
+  /// Removes the written part, unless put_in_place() was called.
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
-  /// Where to write, for those who open files themselves, as new ones.
+  /// The path to write to, for code that opens a new file itself.
   const std::filesystem::path& part() const { return part_; }
-  /// Appends to it. @throws FileError naming the reason, e.g. that the disk is full
+  /// Appends bytes. @throws FileError with the reason, for example a full disk
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  /// Forced to the disk and renamed. @throws FileError
+  /// Forces the file to the disk and renames it. @throws FileError
   void put_in_place();
 
  private:
@@ -48,11 +49,12 @@ class WholeFile {
   bool waits_ = true;
 };
 
-/// @throws FileError naming the reason, e.g. that the disk is full; what was there is then still there
+/// Writes all bytes and puts the file in place. @throws FileError with the reason, for example a full disk; the
+/// previous file is kept in this case
 void write_whole(WholeFile& file, std::span<const std::byte> bytes);
 void write_whole(WholeFile& file, std::string_view text);
 
-/// Until then a crash of the machine can lose what was written. @throws FileError
+/// Forces data to the disk; before that a crash of the machine can lose them. @throws FileError
 void force_to_disk(const std::filesystem::path& file_or_folder);
 
 }  // namespace hamflow

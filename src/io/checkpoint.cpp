@@ -11,8 +11,8 @@ namespace hamflow {
 
 namespace {
 
-// The file: these words, the payload, the checksum of all that.
-constexpr std::uint64_t magic = 0x4b43'574f'4c46'4d48u;  // "HMFLOWCK", which also tells the order of bytes
+// The file consists of these two words, the payload, and a checksum of both.
+constexpr std::uint64_t magic = 0x4b43'574f'4c46'4d48u;  // "HMFLOWCK"; it also shows the byte order
 constexpr std::uint64_t format = 6;
 constexpr std::size_t sum_bytes = sizeof(std::uint64_t);
 

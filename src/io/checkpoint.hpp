@@ -1,6 +1,7 @@
-// checkpoint.bin: where a run can go on, bit for bit. Written beside its predecessor, forced to the disk, then renamed
-// onto it: whenever a crash comes, one whole checkpoint is there, the old one or the new one. It names the rows of
-// run.h5 and the bytes of trajectory.csv that belong to it; what stands behind them is dropped when the run goes on.
+// checkpoint.bin: the state from which a run can be resumed, bit for bit. A new checkpoint is written to another file,
+// forced to the disk, and renamed. So there is a complete checkpoint at any time, the old one or the new one, also
+// after a crash. It records how many rows of run.h5 and bytes of trajectory.csv belong to it; anything after them is
+// dropped when the run is resumed.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +13,10 @@
 
 namespace hamflow {
 
-/// What one observer of the run has seen.
+/// State of one observer of the run.
 struct ObserverRecord {
   std::string name;
-  std::vector<std::byte> bytes;  // Observer::archive()
+  std::vector<std::byte> bytes;  // written by Observer::archive()
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -24,23 +25,23 @@ struct ObserverRecord {
 };
 
 struct Checkpoint {
-  std::string identity;           // of the run: the same in its run.h5
-  std::string version;            // of hamflow
-  std::vector<std::string> keys;  // the scenario's settings
+  std::string identity;           // identity of the run, which run.h5 also contains
+  std::string version;            // version of hamflow
+  std::vector<std::string> keys;  // settings of the scenario
   std::vector<std::string> values;
-  std::int64_t steps = 0;  // to be taken
-  std::int64_t step = 0;   // taken
+  std::int64_t steps = 0;  // steps of the whole run
+  std::int64_t step = 0;   // steps taken so far
   std::int64_t record_every = 0;
-  std::uint64_t rows = 0;                 // of run.h5
-  std::uint64_t section_rows = 0;         // of its section
-  std::uint64_t wall_rows = 0;            // of its bounces
-  std::vector<std::uint64_t> event_rows;  // of each event of the user
-  std::uint64_t csv_bytes = 0;            // of trajectory.csv
-  std::uint64_t csv_hash = 0;             // of these bytes
-  std::uint64_t summary_hash = 0;         // of summary.json; 0 while there is none
+  std::uint64_t rows = 0;                 // rows of run.h5
+  std::uint64_t section_rows = 0;         // rows of its section
+  std::uint64_t wall_rows = 0;            // rows of its bounces
+  std::vector<std::uint64_t> event_rows;  // rows for each event of the user
+  std::uint64_t csv_bytes = 0;            // bytes of trajectory.csv
+  std::uint64_t csv_hash = 0;             // hash of these bytes
+  std::uint64_t summary_hash = 0;         // hash of summary.json; 0 if there is none yet
   double wall_seconds = 0;
-  std::vector<std::byte> simulation;      // Simulation::save(); empty where no step was saved yet
-  std::vector<ObserverRecord> observers;  // of what is measured on the way
+  std::vector<std::byte> simulation;      // written by Simulation::save(); empty if no step was saved yet
+  std::vector<ObserverRecord> observers;  // observers of the run's measurements
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -49,9 +50,9 @@ struct Checkpoint {
   }
 };
 
-/// @throws FileError; the checkpoint that was there is then still there
+/// @throws FileError; the old checkpoint is kept in this case
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
-/// @throws FileError when it cannot be read, is damaged or of another format
+/// @throws FileError if it cannot be read, is damaged, or has another format
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace hamflow

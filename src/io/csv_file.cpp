@@ -39,7 +39,7 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::ui
 }
 
 void CsvFile::put(std::string_view text) {
-  (void)std::fwrite(text.data(), 1, text.size(), out_.get());  // flush() tells what went wrong
+  (void)std::fwrite(text.data(), 1, text.size(), out_.get());  // flush() reports errors
   bytes_ += text.size();
   hash_ = fnv1a(std::as_bytes(std::span(text)), hash_);
 }

@@ -1,4 +1,4 @@
-// trajectory.csv: the samples as text, 17 digits, a header line, one line a sample.
+// trajectory.csv: the samples as text with 17 digits, a header line, then one line for each sample.
 #pragma once
 
 #include <cmath>
@@ -19,22 +19,22 @@
 
 namespace hamflow {
 
-/// What stands in a column: that of a nan has no sign, which nobody has given it.
+/// Returns x, or NaN without a sign, so that equal columns are equal as text.
 inline double without_sign_of_nan(double x) { return std::isnan(x) ? std::numeric_limits<double>::quiet_NaN() : x; }
 
 class CsvFile {
  public:
-  /// Columns step, t, q1.., p1.., energy, the invariants, each with its number of components, and observables.
+  /// Writes the header: step, t, q1.., p1.., energy, the invariants with their components, and observables.
   /// @throws FileError
   CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<InvariantColumn>& more);
-  /// Goes on after the first `bytes` bytes of a file that is there, whose hash is `hash`. @throws FileError
+  /// Continues an existing file after its first `bytes` bytes, whose hash is `hash`. @throws FileError
   CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash);
-  /// Appended so far, written or not.
+  /// Number of bytes appended so far, whether flushed or not.
   std::uint64_t bytes() const { return bytes_; }
-  /// Of these bytes: what somebody else wrote has another one.
+  /// Hash of these bytes. It shows whether another program changed the file.
   std::uint64_t hash() const { return hash_; }
   void append(const Frame& frame, std::span<const double> observables = {});
-  /// @throws FileError when the disk is full
+  /// @throws FileError, for example if the disk is full
   void flush();
 
  private:
@@ -47,7 +47,8 @@ class CsvFile {
   std::uint64_t hash_ = fnv1a_of_nothing;
 };
 
-/// Nothing, if a file begins with `bytes` bytes whose hash is `hash`; else what is wrong with it, a phrase.
+/// Returns an empty text if the file begins with `bytes` bytes whose hash is `hash`; otherwise a phrase that says what
+/// is wrong.
 std::string refused_csv(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash);
 
 }  // namespace hamflow

@@ -24,12 +24,12 @@ void link(hid_t file, const std::string& from, const std::string& to) {
   check_hdf5(H5Lcreate_hard(file, from.c_str(), file, to.c_str(), H5P_DEFAULT, H5P_DEFAULT), "link " + to);
 }
 
-/// A dataset of one row.
+/// Writes a dataset of one row.
 void write_row(hid_t file, const std::string& path, ColumnInfo info, const void* values, std::size_t of_each = 0) {
   StoredColumn(file, path, info, 1, of_each).write(values, 1);
 }
 
-/// An element of one sample, at the start: each dataset has its checksum, as those of many rows have.
+/// Writes an element with one sample, the start. Like datasets of many rows, its datasets have checksums.
 void write_once(hid_t file, const std::string& name, const std::vector<double>& numbers, std::size_t of_each,
                 ColumnInfo info) {
   (void)make_group(file, name);

@@ -1,4 +1,4 @@
-// The groups and links of an H5MD file, while it is made.
+// Makes the groups and links of an H5MD file.
 #pragma once
 
 #include <hdf5.h>
@@ -7,9 +7,9 @@
 
 namespace hamflow {
 
-/// The groups, and what stands in them once: before any column of samples.
+/// Makes the groups and their datasets of one row. Call it before any column of samples is made.
 void write_h5md_groups(hid_t file, const RunDescription& run);
-/// What is there twice under two names: behind all columns of samples.
+/// Links data that H5MD wants under a second name. Call it after all columns of samples were made.
 void link_h5md_elements(hid_t file, const RunDescription& run);
 
 }  // namespace hamflow

@@ -10,7 +10,8 @@
 namespace hamflow {
 
 namespace {
-/// A text is one piece without the checksums that chunks have; attributes have those of HDF5.
+/// Chunks have checksums, but the dataset of a text is contiguous and has none. Therefore its hash is an attribute;
+/// HDF5 protects attributes itself.
 constexpr const char* hash_attribute = "fnv1a";
 std::string hash_of(const std::string& text) { return fmt::format("{:016x}", fnv1a(std::as_bytes(std::span(text)))); }
 }  // namespace
@@ -74,7 +75,7 @@ Hdf5Handle make_group(hid_t file, const std::string& name) {
 }
 
 namespace {
-/// HDF5 creates it as a new file and follows no link.
+/// Creates a new file. HDF5 does not follow a link here.
 Hdf5Handle create_new(const std::filesystem::path& path, hid_t access) {
   std::error_code none;
   std::filesystem::remove(path, none);

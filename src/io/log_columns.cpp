@@ -20,7 +20,7 @@ constexpr const char* energy_key = "--energy";
 
 struct LogCell {
   std::string text;
-  std::size_t column;  // from 1
+  std::size_t column;  // counted from 1
 };
 struct LogRow {
   std::vector<LogCell> cells;
@@ -29,7 +29,7 @@ struct LogRow {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
-/// @param separator ',' or ';', else blanks
+/// @param separator ',' or ';' or ' ' for any blanks
 std::vector<LogCell> log_cells(const std::string& line, char separator) {
   std::vector<LogCell> cells;
   if (separator != ' ') {
@@ -57,7 +57,7 @@ std::vector<LogCell> log_cells(const std::string& line, char separator) {
   return cells;
 }
 
-/// With an exponent as Fortran writes it, too: 1.5D-3.
+/// Also reads an exponent as Fortran writes it: 1.5D-3.
 std::optional<double> log_number(const std::string& text) {
   std::string usual = text;
   for (char& c : usual) {
@@ -87,13 +87,13 @@ char separator_of(const std::string& line) {
   throw Rejection("FILE", file.string() + ": " + message);
 }
 
-/// A table that is being read: of each row two numbers are kept.
+/// A table that is being read. Only time and energy of each row are kept.
 class LogTable {
  public:
   LogTable(const std::filesystem::path& file, const std::string& time, const std::string& energy)
       : file_(file), time_(time), energy_(energy) {}
 
-  /// @param names empty: the columns have numbers only   @param width how many there are
+  /// @param names empty: the columns are only numbered   @param width number of columns
   void begin(const std::vector<LogCell>& names, std::size_t width, std::size_t line) {
     *this = LogTable(file_, time_, energy_);
     for (const LogCell& each : names) names_.push_back(each.text);
@@ -171,8 +171,8 @@ std::ifstream opened(const std::filesystem::path& file) {
   return in;
 }
 
-/// Calls take(line, number, is_whole) for each line, without the mark of UTF-8 at its beginning. Not whole is a last
-/// line without its end.
+/// Calls take(line, number, is_whole) for each line, without a UTF-8 byte order mark. is_whole is false for a last line
+/// without line end.
 template <class Take>
 void each_log_line(const std::filesystem::path& file, const Take& take) {
   std::ifstream in = opened(file);
@@ -226,7 +226,7 @@ LogColumns read_log_of_lammps(const std::filesystem::path& file, const std::stri
       table.add({cells, number});
     }
   });
-  if (in_table) end();  // of a run that goes on, or was killed
+  if (in_table) end();  // the run is still running, or was killed
   if (!last) refuse_file(file, "no thermo output; allowed a table below a line that starts with Step");
   LogColumns columns = last->take();
   columns.tables = tables;
@@ -281,10 +281,10 @@ bool is_hdf5(const std::filesystem::path& file) {
   return in.gcount() == 8 && std::string_view(begin.data(), 8) == "\x89HDF\r\n\x1a\n";
 }
 
-/// The paths of the datasets in a group and below it; links to what stands elsewhere are left out.
+/// Lists the paths of all datasets in a group and its subgroups, without links to other files.
 void list_datasets(hid_t group, const std::string& path, std::vector<std::string>& all) {
   constexpr std::size_t most_listed = 100;
-  constexpr std::ptrdiff_t deepest = 8;  // a group may be in itself
+  constexpr std::ptrdiff_t deepest = 8;  // a group may contain itself
   if (std::count(path.begin(), path.end(), '/') > deepest) return;
   for (const std::string& name : names_in(group)) {
     if (all.size() == most_listed) return;

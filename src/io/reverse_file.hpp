@@ -8,9 +8,10 @@
 
 namespace hamflow {
 
-/// Groups /start, /turn, /end, each with the datasets `q`, `p` and the attributes `t`, `step`, beyond double with
-/// `digits/q` and `digits/p` too; and /scenario, the effective one. The file is whole or not there.
-/// @param end null where the way back was not gone to its end   @throws FileError
+/// Writes the groups /start, /turn, /end, each with the datasets `q` and `p` and the attributes `t` and `step`, beyond
+/// double also with `digits/q` and `digits/p`; and /scenario, the effective scenario. The file is written as a whole or
+/// not at all.
+/// @param end null if the second half of the reversal was not finished   @throws FileError
 void write_reverse_file(const std::filesystem::path& file, const std::string& scenario, const Frame& start,
                         const Frame& turn, const Frame* end);
 

@@ -13,16 +13,16 @@ namespace hamflow {
 
 namespace {
 
-/// What the copy has of its own.
+/// Objects that the copy does not take from the source.
 constexpr const char* written_anew[] = {"q", "p", "scenario", "digits"};
-/// Tables whose rows are no samples, of states in the coordinates that are left behind.
+/// Tables that are left out, because their rows are states in the old coordinates at other times than the samples.
 constexpr const char* left_out_tables[] = {"section", "events/wall", "events/user"};
 
 bool is_one_of(const auto& names, const std::string& path) {
   return std::find(std::begin(names), std::end(names), path) != std::end(names);
 }
 
-/// Datasets that a run has, with a row a sample. What is damaged of them is an error.
+/// Returns whether a path is a dataset of hamflow with a row for each sample. Damage in these is an error.
 bool is_of_samples(const std::string& path) {
   constexpr std::string_view folders[] = {"invariants/", "observables/", "solver/"};
   return path == "t" || path == "step" || path == "energy" || path == "events/halved" ||
@@ -32,7 +32,7 @@ bool is_of_samples(const std::string& path) {
                      [&](std::string_view folder) { return path.starts_with(folder); });
 }
 
-/// The target cannot be written, whatever there is to read.
+/// The target cannot be written.
 struct WriteError : FileError {
   using FileError::FileError;
 };
@@ -45,14 +45,14 @@ bool holds_numbers(hid_t file, const std::string& path) {
   }
 }
 
-/// Copies object by object. H5Ocopy would be one call, but crashes on a damaged file, and on a disk that is full.
+/// Copies object by object. H5Ocopy needs only one call, but it crashes on a damaged file and on a full disk.
 class Copy {
  public:
   Copy(hid_t from, hid_t to, hsize_t rows) : from_(from), to_(to), rows_(rows) {}
 
   void attributes_of_file() {
     for (const std::string& name : attribute_names(from_)) {
-      // Names of coordinates are others, and no run goes on with these samples.
+      // The names of coordinates differ in the copy, and no run can be resumed with its samples.
       if (name != "coordinates" && name != "momenta" && name != "run") copy_one(from_, to_, "", name);
     }
   }
@@ -65,7 +65,7 @@ class Copy {
     for (const std::string& name : names_in(here)) object(path.empty() ? name : path + "/" + name);
   }
 
-  /// Those that a user has added to what the copy has of its own.
+  /// Copies attributes that a user has added to the objects of the copy.
   void attributes_beside(const std::string& path) {
     if (!has_object(from_, path) || !has_object(to_, path)) return;
     attributes(Hdf5Handle(H5Oopen(from_, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path),
@@ -79,7 +79,7 @@ class Copy {
     left_out_.others.push_back("/" + path + " (" + why + ")");
   }
 
-  /// Groups may contain each other.
+  /// Returns whether a group was not visited yet, because groups may contain each other.
   bool is_new(hid_t group) {
     H5O_info_t info{};
     check_hdf5(H5Oget_info2(group, &info, H5O_INFO_BASIC), "look at a group");
@@ -122,12 +122,12 @@ class Copy {
       throw;
     } catch (const FileError& error) {
       if (is_of_samples(path) && holds_numbers(from_, path)) throw;
-      (void)H5Ldelete(to_, path.c_str(), H5P_DEFAULT);  // what there is of it
+      (void)H5Ldelete(to_, path.c_str(), H5P_DEFAULT);  // removes the incomplete copy
       leave_out(path, error.what());
     }
   }
 
-  /// Some rows at a time, so that a long run does not fill the memory.
+  /// Copies some rows at a time, so that a long run does not fill the memory.
   void dataset(const std::string& path) {
     const StoredData source = StoredData::dataset(from_, path);
     const std::string& name = source.name();
@@ -174,7 +174,7 @@ class Copy {
     const herr_t written = H5Dwrite(target, source.type(), memory, space, H5P_DEFAULT, bytes.data());
     if (H5Tdetect_class(source.type(), H5T_VLEN) != 0 || H5Tdetect_class(source.type(), H5T_STRING) != 0) {
       (void)H5Dvlen_reclaim(source.type(), memory, H5P_DEFAULT,
-                            bytes.data());  // of texts of one length it does nothing
+                            bytes.data());  // does nothing for texts of fixed length
     }
     if (written < 0) throw WriteError("HDF5: cannot write " + source.name());
   }

@@ -1,5 +1,6 @@
-// A run.h5 with other coordinates: everything is copied but the scenario, the names of coordinates, /q, /p, /digits and
-// tables of states at other times than those of the samples. What its user has added is copied as it is.
+// Copies a run.h5 with states in other coordinates. Everything is copied except the scenario, names of coordinates, /q,
+// /p, /digits, and tables of states at other times than the samples. Objects that a user has added are copied
+// unchanged.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +11,21 @@
 
 namespace hamflow {
 
-/// What differs.
+/// The data that replace those of the source.
 struct ConvertedStates {
   std::string scenario;
-  std::vector<std::string> coordinates;  // names
+  std::vector<std::string> coordinates;  // names of coordinates
   std::vector<std::string> momenta;
-  Table table;  // q, p and, of a run beyond double, digits/q, digits/p, digits/energy, digits/t
+  Table table;  // q and p; beyond double also digits/q, digits/p, digits/energy, digits/t
 };
 
-/// What is not in the copy.
+/// Tables and objects that the copy does not contain.
 struct LeftOut {
-  std::vector<std::string> tables;  // of events and sections: their states are in the coordinates left behind
-  std::vector<std::string> others;  // "/mine/link (why)": what a user has added and cannot be copied
+  std::vector<std::string> tables;  // tables of events and sections, because their states are in the old coordinates
+  std::vector<std::string> others;  // "/mine/link (why)": objects of a user that cannot be copied
 };
 
-/// @param source may also be a run that goes on or was cut short   @param target is replaced when it exists
+/// @param source may also be a run that is still running or was cut short   @param target replaced if it exists
 /// @throws FileError
 LeftOut copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
                       const ConvertedStates& states);

@@ -14,10 +14,12 @@ namespace hamflow {
 
 namespace {
 
-constexpr std::size_t batch_rows = 8192;                       // one write call per batch: 35 ns a row instead of 25 us
-constexpr std::size_t batch_bytes = std::size_t{1} << 23;      // of large systems fewer rows
-constexpr std::size_t bytes_in_memory = std::size_t{1} << 24;  // of rows that are written: figures are drawn from them
-constexpr double flush_seconds = 0.25;                         // at most so much is lost by a crash
+constexpr std::size_t batch_rows = 8192;  // rows for each write call: 35 ns a row instead of 25 us
+// bytes for each write call; limits the rows of large systems
+constexpr std::size_t batch_bytes = std::size_t{1} << 23;
+// written rows stay in memory up to this size, because figures are drawn from them
+constexpr std::size_t bytes_in_memory = std::size_t{1} << 24;
+constexpr double flush_seconds = 0.25;  // a crash loses at most the rows of this time
 using Clock = std::chrono::steady_clock;
 
 std::string now_utc() {
@@ -28,18 +30,18 @@ std::string now_utc() {
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
-/// A dataset, and the column of its table that it shows.
+/// A dataset and the column of its table that it contains.
 struct Shown {
   StoredColumn stored;
   std::size_t column;
-  std::vector<double> divisors{};  // each row is divided by them: velocities of momenta
-  std::vector<double> constant{};  // each row is this one instead
+  std::vector<double> divisors{};  // each row is divided by these, to turn momenta into velocities
+  std::vector<double> constant{};  // each row has these values instead
 };
 
 /// The datasets of a table, in the order of its columns.
 struct StoredTable {
   std::vector<Shown> shown{};
-  std::size_t written = 0;  // rows of the table in memory
+  std::size_t written = 0;  // number of rows that are written and still in memory
 
   void write(const Table& table) {
     const std::size_t rows = table.rows();
@@ -70,7 +72,7 @@ struct StoredTable {
   }
 };
 
-/// "digits/q" of a table in the group "section/" is "digits/section/q".
+/// Returns the path of a column: "digits/q" of a table in the group "section/" is "digits/section/q".
 std::string path_in(const std::string& group, const std::string& column) {
   constexpr std::string_view digits = "digits/";
   if (!column.starts_with(digits)) return group + column;
@@ -86,7 +88,7 @@ StoredTable stored_table(hid_t file, const std::string& group, const Table& tabl
   return all;
 }
 
-/// Samples of particles stand where H5MD wants them.
+/// Makes the datasets of particles at the paths of H5MD.
 StoredTable stored_particles(hid_t file, const RunDescription& run, const Table& table, std::size_t rows) {
   const std::size_t space = run.particles.space;
   StoredTable all;
@@ -151,7 +153,7 @@ struct RunFile::Impl {
   std::size_t most_waiting = batch_rows;
   Clock::time_point flushed = Clock::now();
 
-  /// The largest number of rows of a table that wait to be written.
+  /// Largest number of rows of a table that wait to be written.
   std::size_t waiting() const {
     const RunTables& tables = rows.tables();
     std::size_t most = std::max({tables.samples.rows() - samples.written, tables.section.rows() - section.written,
@@ -163,7 +165,7 @@ struct RunFile::Impl {
   }
   void write() {
     const RunTables& tables = rows.tables();
-    failed = true;  // until all is written
+    failed = true;  // reset below if every write succeeds
     bounces.write(tables.bounces);
     section.write(tables.section);
     samples.write(tables.samples);
@@ -192,7 +194,7 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   if (particles) write_h5md_groups(id, description);
   const RunTables& tables = rows.tables();
   const bool digits = description.digits_length > 0;
-  /// A table whose rows are no samples.
+  /// Makes the group of a table whose rows are not samples.
   const auto in_group = [&](const std::string& group, const Table& table) {
     (void)make_group(id, group);
     if (digits) (void)make_group(id, "digits/" + group);
@@ -214,7 +216,8 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   std::size_t bytes = 0;
   for (const Shown& each : impl->samples.shown) bytes += each.stored.bytes_of_row();
   impl->most_waiting = std::clamp<std::size_t>(batch_bytes / bytes, 1, batch_rows);
-  // Every object has to exist before this; from here on readers may look in, and a crash leaves a readable file.
+  // Every object has to exist before this call. Afterwards readers may open the file, and a crash leaves a readable
+  // file.
   check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
   return impl;
 }
@@ -240,7 +243,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
       }
       force_to_disk(fresh);
     }
-    std::filesystem::rename(fresh, file);  // whoever sees it can read it; the open file keeps its identity
+    std::filesystem::rename(fresh, file);  // from now on readers can open it by its name; the open file stays the same
   } catch (const std::exception& error) {
     impl_.reset();
     std::error_code ignored;
@@ -256,8 +259,8 @@ RunFile::~RunFile() {
     flush();
   } catch (const FileError&) {  // NOLINT: a destructor cannot report; flush() was called before where it matters
   }
-  // After a failed write HDF5 holds metadata of what is not in the file. Closed, it would write them: the file is left
-  // as a kill would leave it, which readers can open.
+  // After a failed write HDF5 holds metadata of data that are not in the file, and would write them when the file is
+  // closed. The file is left open instead, as after a kill, so that readers can open it.
   if (impl_->failed) (void)impl_.release();
 }
 

@@ -1,4 +1,4 @@
-// What a run.h5 says of its run beside the tables.
+// Description of a run in run.h5, without its tables.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace hamflow {
 
-/// A dataset of numbers, and what it means.
+/// Name and meaning of a dataset of numbers.
 struct NamedColumn {
   const char* name;
   const char* meaning;
 };
 
-/// Those of /solver that `method.diagnostics` adds.
+/// Datasets in /solver that `method.diagnostics` adds.
 inline constexpr NamedColumn diagnostic_columns[] = {
     {"solver/iterations", "of the last step; NaN at the start"},
     {"solver/residual", "of the last step"},
@@ -22,7 +22,7 @@ inline constexpr NamedColumn diagnostic_columns[] = {
     {"solver/determinant_tangent", "of the tangent matrix of the last step"},
     {"solver/condition_inverse_mass", "of the inverse mass matrix at the last step"}};
 
-/// Of every run: whole numbers.
+/// Datasets of whole numbers that every run has.
 inline constexpr NamedColumn count_columns[] = {{"step", "steps since the start"},
                                                 {"solver/force", "force evaluations since the start"},
                                                 {"solver/gradient", "evaluations of the gradient of H since the start"},
@@ -30,7 +30,7 @@ inline constexpr NamedColumn count_columns[] = {{"step", "steps since the start"
                                                 {"solver/linear_solves", "linear systems solved since the start"},
                                                 {"events/halved", "steps replaced by two half steps since the start"}};
 
-/// H - H0 over the steps from one sample to the next, both included.
+/// Range of H - H0 over the steps from one sample to the next, both included.
 inline constexpr NamedColumn energy_range_columns[] = {
     {"energy_error_min", "least H - H0 at the end of a step since the sample before, both samples included"},
     {"energy_error_max", "largest H - H0 at the end of a step since the sample before, both samples included"}};
@@ -38,12 +38,12 @@ inline constexpr NamedColumn energy_range_columns[] = {
 /// An invariant as a dataset.
 struct InvariantColumn {
   std::string name;
-  std::size_t size = 1;  // numbers a row
+  std::size_t size = 1;  // numbers in each row
   std::string meaning{};
   std::string unit{};
 };
 
-/// Of the columns; empty where nothing is declared.
+/// Units of the columns; empty if none is declared.
 struct ColumnUnits {
   std::string t{};
   std::string q{};
@@ -51,7 +51,7 @@ struct ColumnUnits {
   std::string energy{};
 };
 
-/// All but the rows.
+/// Everything but the rows.
 struct RunDescription {
   std::string scenario;
   std::string version;
@@ -61,23 +61,25 @@ struct RunDescription {
   std::string arithmetic;
   std::size_t dimension = 0;
   std::vector<InvariantColumn> invariants;
-  std::vector<InvariantColumn> observables{};  // expressions of the user, whose text is the meaning
-  bool diagnostics = false;                    // of implicit steps
-  bool energy_range = false;                   // of the steps between samples
-  bool section = false;                        // points of one are written
-  bool walls = false;                          // bounces are
-  std::vector<std::string> events{};           // those of the user, by name
-  std::size_t samples = 0;                     // expected, so that a short run leaves a small file; 0: unknown
+  std::vector<InvariantColumn> observables{};  // expressions of the user; the meaning is their text
+  bool diagnostics = false;                    // diagnostics of implicit steps are written
+  bool energy_range = false;                   // energy range of the steps between samples is written
+  bool section = false;                        // points of a section are written
+  bool walls = false;                          // bounces are written
+  std::vector<std::string> events{};           // names of the user's events
+  std::size_t samples = 0;                     // expected number, so that a short run has a small file; 0: unknown
   std::string created;                         // empty: now
   double dt = 0;
-  std::string dt_text{};                   // as it was given
-  std::vector<std::string> coordinates{};  // a name for each number of q; none: they are not written
+  std::string dt_text{};                   // dt as it was given
+  std::vector<std::string> coordinates{};  // a name for each number of q; empty: no names are written
   std::vector<std::string> momenta{};
-  std::vector<double> masses{};  // of the bodies; none: not written
-  H5mdParticles particles{};     // of a gas: positions and momenta as H5MD wants them, instead of /q and /p
+  std::vector<double> masses{};  // masses of the bodies; empty: not written
+  // particles of a gas, whose positions and momenta are at the paths of H5MD instead of /q and /p
+  H5mdParticles particles{};
   ColumnUnits units{};
   std::size_t digits_length = 0;  // characters of a number beyond double; 0: numbers are doubles
-  std::string identity{};         // of the run, the attribute `run`; empty: none, nothing can go on in the file
+  // the attribute `run`; empty: there is none, and the run cannot be resumed with this file
+  std::string identity{};
 };
 
 }  // namespace hamflow

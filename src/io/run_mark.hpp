@@ -1,5 +1,5 @@
-// Which run wrote a run.h5. Each run draws a number when it begins, which stands in its checkpoint and in the attribute
-// `run` of its run.h5: two runs of one scenario in the same second have different ones.
+// Identifies the run that wrote a run.h5. Each run draws a random number when it begins, and stores it in its
+// checkpoint and in the attribute `run` of its run.h5. So two runs of one scenario in the same second are different.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace hamflow {
 
-/// 128 random bits as 32 hexadecimal digits.
+/// Returns 128 random bits as 32 hexadecimal digits.
 std::string new_identity();
 
-/// Nothing, if the file is of that run and has at least so many samples; else what is wrong with it, a phrase.
+/// Returns an empty text if the file belongs to that run and has at least `rows` samples; otherwise a phrase that says
+/// what is wrong.
 std::string refused_run_file(const std::filesystem::path& file, const std::string& identity, std::uint64_t rows);
 
 }  // namespace hamflow

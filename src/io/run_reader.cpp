@@ -1,4 +1,4 @@
-// What run.h5 holds, read again: also while it grows, and after a crash.
+// Reads run.h5, also while it grows and after a crash.
 #include <algorithm>
 #include <limits>
 #include <new>
@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// A dataset of one number a row.
+/// Opens a dataset with one number in each row.
 StoredData column(hid_t file, const std::string& path) {
   StoredData data = StoredData::dataset(file, path);
   if (data.shape().size() != 1) {
@@ -22,8 +22,8 @@ StoredData column(hid_t file, const std::string& path) {
   return data;
 }
 
-/// A dataset of states: of rank 2, of particles of rank 3.
-/// @param width of a row, 0: any
+/// Opens a dataset of states: of rank 2, or of rank 3 for particles.
+/// @param width numbers in a row; 0: any
 StoredData rows_of_states(hid_t file, const std::string& path, std::size_t width) {
   StoredData data = StoredData::dataset(file, path);
   const std::size_t rank = data.shape().size();
@@ -37,7 +37,7 @@ StoredData rows_of_states(hid_t file, const std::string& path, std::size_t width
   return data;
 }
 
-/// Decimal texts, in which an expression would be evaluated.
+/// Returns decimal texts. Other texts are refused, because an expression in them would be evaluated.
 std::vector<std::string> digits_of(const StoredData& data) {
   std::vector<std::string> texts = data.texts();
   for (const std::string& text : texts) {
@@ -50,7 +50,7 @@ std::vector<std::string> digits_of(const StoredData& data) {
 
 bool has_particles(hid_t file) { return has_object(file, "particles/all"); }
 
-/// The states that reverse.h5 has, in their order.
+/// Returns the names of the states in a reverse.h5, in order.
 std::vector<std::string> states_of_reversal(hid_t file) {
   std::vector<std::string> names;
   if (has_object(file, "t")) return names;
@@ -60,7 +60,7 @@ std::vector<std::string> states_of_reversal(hid_t file) {
   return names;
 }
 
-/// q or p of a state of a reversal.
+/// Reads q or p of a state of a reversal.
 std::vector<double> state_of_reversal(hid_t file, const std::string& path, std::size_t width) {
   const StoredData data = column(file, path);
   if (data.rows() == 0 || (width != 0 && data.rows() != width)) throw FileError("HDF5: states differ in length");
@@ -85,7 +85,7 @@ Column digits_column(const std::string& name, std::size_t width, bool scalar, co
   return column;
 }
 
-/// A reversal as a run of three samples.
+/// Reads a reversal as a run with three samples.
 StoredRun read_reversal(hid_t file, const std::vector<std::string>& names, std::size_t most_coordinates) {
   StoredRun run;
   run.description.scenario = read_text_dataset(file, "scenario");
@@ -111,7 +111,8 @@ StoredRun read_reversal(hid_t file, const std::vector<std::string>& names, std::
   return run;
 }
 
-/// What stands among the samples and may be somebody else's: it is a column where it has numbers in as many rows.
+/// Reads an object among the samples that another program may have written. It becomes a column if it has numbers in
+/// the same number of rows.
 void add_other_column(hid_t file, const std::string& name, const std::string& path, std::size_t rows, StoredRun& run) {
   const auto leave_out = [&](const std::string& why) {
     run.left_out.push_back("/" + path + " is left out: it " + why);
@@ -133,7 +134,8 @@ void add_other_column(hid_t file, const std::string& name, const std::string& pa
   run.tables.samples.add(numbers_column(name, data.width(), data.width() == 1, data.numbers())).cut(rows);
 }
 
-/// The digits of the samples; nothing where the run was in double. Of a run that goes on they may have fewer rows.
+/// Adds the digits of the samples, unless the run was in double. In a run that is still running they may have fewer
+/// rows.
 void add_digits(hid_t file, std::size_t width, Table& samples) {
   if (!has_object(file, "digits/t")) return;
   for (const char* name : {"digits/q", "digits/p"}) {
@@ -144,14 +146,14 @@ void add_digits(hid_t file, std::size_t width, Table& samples) {
   }
 }
 
-/// The shortest column tells how many rows are complete: after a crash between two flushes they may differ.
+/// Cuts all columns to the shortest one: after a crash between two flushes their lengths may differ.
 void cut_to_equal_length(Table& table) {
   std::size_t rows = std::numeric_limits<std::size_t>::max();
   for (const Column& column : table.columns()) rows = std::min(rows, column.rows());
   table.cut(rows);
 }
 
-/// A table in a group of its own.
+/// Reads a table in a group of its own.
 Table read_table(hid_t file, const std::string& group, std::size_t width, const std::vector<const char*>& states,
                  const std::vector<const char*>& integers) {
   Table table;
@@ -184,7 +186,7 @@ StoredRun read_run(const std::filesystem::path& path, const StoredRunOptions& op
   const StoredData q = rows_of_states(file, particles ? H5mdNames::position : "q", 0);
   const std::size_t width = q.width();
   const StoredData p = rows_of_states(file, particles ? H5mdNames::momentum : "p", width);
-  // Time is written last, so that no other column of the run is shorter.
+  // Time is written last, so no other column of a run is shorter.
   const std::size_t count = std::min({t.rows(), energy.rows(), q.rows(), p.rows()});
   if (width <= options.most_coordinates) {
     samples.add(numbers_column("q", width, false, q.numbers()));
@@ -245,7 +247,7 @@ std::vector<double> read_positions(const std::filesystem::path& path, std::size_
   return rows_of_states(file, has_particles(file) ? H5mdNames::position : "q", 0).numbers_of_row(sample);
 }
 
-/// What goes wrong while a file is read names the file.
+/// Adds the name of the file to errors that occur while it is read.
 template <class Read>
 auto naming(const std::filesystem::path& path, const Read& read) {
   std::error_code unknown;

@@ -8,7 +8,7 @@ constexpr const char* all_digits = "with all digits: decimal texts that read bac
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// The names of an invariant's numbers: NAME, or NAME_1, NAME_2, ...
+/// Returns the names of an invariant's components: NAME, or NAME_1, NAME_2, ...
 std::vector<std::string> component_names(const InvariantColumn& invariant) {
   if (invariant.size == 1) return {invariant.name};
   std::vector<std::string> names;
@@ -31,7 +31,7 @@ ColumnInfo with_digits(ColumnInfo info, const RunDescription& run) {
   return info;
 }
 
-/// What q, p and t are in a table.
+/// Meanings of q, p and t in a table.
 struct StateMeaning {
   const char* q;
   const char* p;
@@ -41,7 +41,7 @@ void add_state(const RunDescription& run, const StateMeaning& meaning, Table& ta
   table.add(list("q", run.coordinates, run.dimension, meaning.q, run.units.q));
   table.add(list("p", run.momenta, run.dimension, meaning.p, run.units.p));
 }
-/// t comes last: where it has a row, the others have theirs.
+/// t is added last: a row that has t is complete.
 void add_digits_and_time(const RunDescription& run, const StateMeaning& meaning, Table& table) {
   const ColumnInfo t = one("t", ValueType::number, meaning.t, run.units.t);
   if (run.digits_length > 0) {
@@ -122,7 +122,7 @@ Table event_of(const RunDescription& run, const std::string& event) {
   return table;
 }
 
-/// Fills the columns of a row in their order.
+/// Fills the columns of a row in order.
 class Row {
  public:
   explicit Row(Table& table) : next_(table.columns().begin()) {}

@@ -1,4 +1,4 @@
-// The tables of a run while they are filled.
+// Tables of a run that is being filled.
 #pragma once
 
 #include <cstdint>
@@ -18,29 +18,29 @@ struct RowCounts {
   std::uint64_t samples = 0;
   std::uint64_t section = 0;
   std::uint64_t bounces = 0;
-  std::vector<std::uint64_t> events{};  // in the order of RunDescription::events; fewer of them: the others have none
+  std::vector<std::uint64_t> events{};  // in the order of RunDescription::events; missing entries are 0
 };
 
 class RunRows {
  public:
-  /// @param before of a run that goes on: rows that it has already, which are not in memory
+  /// @param before rows that a resumed run already has in its files, which are not in memory
   explicit RunRows(const RunDescription& run, const std::optional<RowCounts>& before = {});
 
-  // Each adds a row. @throws Error where a number has more digits than the description says
-  /// @param observables a value for each
+  /// Adds a row. @throws Error if a number has more digits than the description says   @param observables one value for
+  /// each observable
   void append(const Frame& frame, std::span<const double> observables = {});
   void append(const SectionPoint& point);
   void append(const Bounce& bounce);
-  /// @param event its number in the description   @param step with which it is behind
+  /// @param event its index in the description   @param step the step that contains the event
   void append(std::size_t event, std::int64_t step, const SectionPoint& point);
 
-  /// All rows so far, those that are not in memory included.
+  /// Numbers of all rows so far, including those that are not in memory.
   RowCounts counts() const;
   std::uint64_t event_rows(std::size_t event) const { return before_.events[event] + tables_.events[event].rows(); }
   std::uint64_t bounce_rows() const { return before_.bounces + tables_.bounces.rows(); }
   /// Whether all rows are in memory.
   bool complete() const { return complete_; }
-  /// Rows that are written elsewhere leave the memory.
+  /// Removes rows from memory that have been written.
   void drop();
 
   const RunTables& tables() const { return tables_; }

@@ -11,10 +11,10 @@ static_assert(std::endian::native == std::endian::little, "numbers are written i
 
 namespace {
 
-/// Every chunk carries a Fletcher32 checksum, so that data that were damaged are an error and not other data. One that
-/// is not full yet is written again with each flush, at the same place. It therefore fills at most one page of memory,
-/// and create_hdf5() puts it on one: a kill stops a write between pages only, so that a chunk is never half old and
-/// half new, which its checksum would take for damage of all its rows.
+/// Every chunk has a Fletcher32 checksum, so that damage is an error instead of wrong data. A chunk that is not full
+/// yet is written again by each flush, at the same place. Therefore it fills at most one memory page, and create_hdf5()
+/// aligns it to a page: a kill interrupts a write only between pages, so a chunk is never half old and half new, which
+/// its checksum would report as damage of all its rows.
 constexpr std::size_t page = 4096;
 constexpr std::size_t checksum = 4;
 

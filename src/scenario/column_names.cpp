@@ -8,7 +8,8 @@ namespace hamflow {
 
 std::vector<std::string> columns_of_every_run(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
   std::vector<std::string> all{"t", "step", "energy", "energy-error"};
-  for (const StateNames& names : {state_names(problem, parameters, size), numbered_names(size)}) {  // of trajectory.csv
+  // numbered names are used in trajectory.csv
+  for (const StateNames& names : {state_names(problem, parameters, size), numbered_names(size)}) {
     all.insert(all.end(), names.q.begin(), names.q.end());
     all.insert(all.end(), names.p.begin(), names.p.end());
   }

@@ -8,11 +8,11 @@
 
 namespace hamflow {
 
-/// The names of columns that every run has: time, step, energy, and the state by its names and by numbers.
-/// @param parameters complete   @param size of q
+/// Returns the names of columns that every run has: time, step, energy, and the state, by names and by numbers.
+/// @param parameters all parameters of the problem   @param size number of coordinates
 std::vector<std::string> columns_of_every_run(const ProblemEntry& problem, const Texts& parameters, std::size_t size);
 
-/// Why a column cannot have this name; empty if it can.
+/// Explains why a column cannot have this name; empty if it can.
 std::string refused_column(const std::string& name, const std::vector<std::string>& taken);
 
 }  // namespace hamflow

@@ -12,7 +12,7 @@ namespace hamflow {
 
 namespace {
 
-/// The problems that have several charts, each with one entry for each of them.
+/// Returns the problems with several charts, with one entry for each chart.
 const std::map<std::string, std::vector<const ProblemEntry*>>& charted_problems() {
   static const std::map<std::string, std::vector<const ProblemEntry*>> all = [] {
     std::map<std::string, std::vector<const ProblemEntry*>> found;
@@ -35,10 +35,10 @@ const ProblemEntry* with_coordinates(const std::vector<const ProblemEntry*>& cha
   return found == charts.end() ? nullptr : *found;
 }
 
-/// A pointer without ownership to an entry that is never destroyed, such as those of problems().
+/// Returns a pointer without ownership to an entry that is never destroyed, such as those of problems().
 std::shared_ptr<const ProblemEntry> unowned(const ProblemEntry& entry) { return {std::shared_ptr<void>(), &entry}; }
 
-/// A problem that has both charts, preferably with `size` coordinates. @throws Error
+/// Returns the entries of a problem that has both charts, preferably with `size` coordinates. @throws Error
 std::pair<std::shared_ptr<const ProblemEntry>, std::shared_ptr<const ProblemEntry>> charts_named(
     const std::string& from, const std::string& to, std::size_t size) {
   check_coordinates(from);
@@ -104,7 +104,8 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
   if (!has_charts || with_coordinates(charts->second, to) == nullptr) {
     const std::string allowed =
         problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
-    if (charts != charted_problems().end() && problem.info.chart_key.empty()) {  // a variant with one chart: in space
+    // a variant with a single chart, in space
+    if (charts != charted_problems().end() && problem.info.chart_key.empty()) {
       const auto told = [](const auto& choice) { return choice.first + " = " + choice.second; };
       throw Error("found " + problem.info.name + " with " + joined(problem.info.variant, told) +
                   ", which has only the coordinates " + joined(problem.info.coordinates) + "; allowed: " + allowed);
@@ -122,7 +123,7 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
     throw Error("found " + to + " coordinates, of which " + problem.info.name + " has several; allowed " +
                 joined(meant));
   }
-  // Two charts may have different choices. Only the choices that both have are compared.
+  // Two charts may have different choices, so only the choices that both have are compared.
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != problem.info.name || coordinates_of(entry) != to) continue;
     const bool same = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {

@@ -1,4 +1,4 @@
-// The limits of methods for many coordinates. Code that uses another method than the scenario's calls this, too.
+// Limits of methods for many coordinates. Code that uses another method than the scenario's has to check it, too.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// Why a method cannot be used with so many coordinates, and what is allowed; empty if it can be used.
+/// Explains why a method cannot be used with so many coordinates, and what is allowed; empty if it can be used.
 std::string refused_by_size(const Request& request, std::size_t coordinates);
 
 }  // namespace hamflow

@@ -12,13 +12,13 @@ namespace hamflow {
 
 namespace {
 
-/// The shape of a dataset; empty if it does not exist or holds a single value.
+/// Returns the shape of a dataset; empty if it does not exist or holds a single value.
 std::vector<hsize_t> shape_of(hid_t file, const std::string& name) {
   return has_object(file, name) ? StoredData::dataset(file, name).shape() : std::vector<hsize_t>();
 }
 
-/// The numbers of a state, with all digits if the run has more digits than double.
-/// @param digits the dataset of the digits; empty: there is none
+/// Returns the numbers of a state, with all digits if the run has more digits than double.
+/// @param digits dataset of the digits; empty: there is none
 std::vector<std::string> numbers_of(hid_t file, const std::string& name, const std::string& digits, hsize_t row) {
   if (!digits.empty() && has_object(file, digits)) return StoredData::dataset(file, digits).texts_of_row(row);
   std::vector<std::string> texts;
@@ -26,7 +26,7 @@ std::vector<std::string> numbers_of(hid_t file, const std::string& name, const s
   return texts;
 }
 
-/// The place of a state in the file.
+/// Place of a state in the file.
 struct StoredState {
   std::string q;
   std::string p;
@@ -35,7 +35,7 @@ struct StoredState {
   hsize_t dimension = 0;  // 0: all numbers are in one row
 };
 
-/// The H5MD datasets of a gas, else /q and /p.
+/// Returns the H5MD datasets of a gas, or /q and /p.
 StoredState place_of(hid_t file, const std::filesystem::path& path, RunState which) {
   const std::vector<hsize_t> times = shape_of(file, "t");
   StoredState place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
@@ -60,13 +60,13 @@ StoredState place_of(hid_t file, const std::filesystem::path& path, RunState whi
   return place;
 }
 
-/// The masses of an n-body run; empty if the file has none.
+/// Returns the masses of an n-body run; empty if the file has none.
 std::vector<double> masses_of_bodies(hid_t file) {
   if (H5Aexists(file, "masses") <= 0) return {};
   return StoredData::attribute(file, "masses").numbers();
 }
 
-/// Refuses particles of another dimension, whose numbers would be read as other particles.
+/// Refuses particles in a space of another dimension, whose numbers would be read as other particles.
 void check_dimension(hid_t file, const StoredState& place, std::size_t space, const std::string& path) {
   hsize_t dimension = place.dimension;
   if (dimension == 0) {
@@ -86,7 +86,7 @@ void check_dimension(hid_t file, const StoredState& place, std::size_t space, co
   }
 }
 
-/// One mass for each particle, or one for all if they are equal; empty if the file has none.
+/// Returns one mass for each particle, or a single one if all are equal; empty if the file has none.
 std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
   const char* const of_gas = "particles/all/mass/value";
   std::vector<double> masses =

@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// Calls put(i) for each coordinate of each particle; i, from 0, is the place of the particle along that coordinate.
+/// Calls put(i) for each coordinate of each particle, where i is the particle's index along that coordinate, from 0.
 template <class Put>
 void each_place(std::int64_t n, std::size_t space, const Put& put) {
   std::int64_t all = 1;
@@ -27,7 +27,7 @@ void each_place(std::int64_t n, std::size_t space, const Put& put) {
   }
 }
 
-/// 2e-5 m - 1 as a decimal with five places.
+/// Writes 2e-5 m - 1 as a decimal with five places.
 std::string fifty_thousandths(std::uint64_t m) {
   const auto hundred_thousandths = static_cast<std::int64_t>(2 * m) - 100000;
   const std::int64_t size = std::abs(hundred_thousandths);
@@ -38,7 +38,7 @@ std::string fifty_thousandths(std::uint64_t m) {
 
 struct Cell {
   std::string text;
-  std::size_t column;  // from 1
+  std::size_t column;  // counted from 1
 };
 std::vector<Cell> cells_of(const std::string& line) {
   std::vector<Cell> cells{{"", 1}};

@@ -15,7 +15,7 @@ bool has(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// The words that choose between problems of one name, each with a text such as `central-force with potential =
+/// Returns the words that choose between problems of one name, each with a text such as `central-force with potential =
 /// "kepler"`.
 const std::map<std::string, std::string>& problems_by_choice() {
   static const std::map<std::string, std::string> all = [] {

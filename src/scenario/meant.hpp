@@ -1,4 +1,4 @@
-// Suggestions for names that exist in another place: a potential given as a problem, a key of another table.
+// Suggestions for names in the wrong place: a potential given as a problem, or a key of another table.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace hamflow {
 
-/// "; did you mean ...?" for an unknown problem: the nearest name of a problem, or one of its choices, as in
-/// central-force with potential = "kepler". Empty if nothing is near.
+/// Returns "; did you mean ...?" for an unknown problem: the nearest name of a problem, or one of its choices, as in
+/// central-force with potential = "kepler". Empty if no name is near.
 std::string suggested_problem(const std::string& name);
 
-/// Advice for a key that only earlier versions had, given by its dotted path. Empty for any other key.
+/// Returns advice for a key, given by its dotted path, that only earlier versions had. Empty for any other key.
 std::string removed_key(const std::string& path);
 
-/// "; did you mean run.dt?" for a dotted path whose last part is a key of another table; else empty.
-/// @param problem,method only their keys are considered; null or empty: the keys of all
+/// Returns "; did you mean run.dt?" for a dotted path whose last part is a key of another table; otherwise empty.
+/// @param problem,method consider only their keys; null or empty: the keys of all
 std::string key_elsewhere(const std::string& path, const ProblemEntry* problem = nullptr,
                           const std::string& method = "");
 

@@ -63,7 +63,8 @@ bool same_option(const OptionInfo& a, const OptionInfo& b) {
 }
 
 namespace {
-/// Whether [method] has a monitor for steps of varying length, but --set asks for equal steps, which do not use it.
+/// Returns whether [method] has a monitor for steps of varying length, although --set asks for equal steps, which do
+/// not use it.
 bool has_replaced_monitor(const toml::table& method, const Texts& options_of_set_name) {
   if (!method.contains(monitor_option)) return false;
   const auto in_name = options_of_set_name.find(step_control_option);
@@ -109,7 +110,7 @@ namespace {
 constexpr const char* in_its_name = "its name contains it";
 constexpr const char* in_its_rows = "it differs between its rows, unless its name contains it";
 
-/// The reason why one or several methods do not use a key.
+/// Returns the reason why one or several methods do not use a key.
 std::string why_unused(const std::string& why, std::size_t methods, bool one_row_each) {
   const bool several = methods > 1;
   if (why == in_its_name) return several ? "their names contain it" : why;
@@ -123,8 +124,8 @@ std::string why_unused(const std::string& why, std::size_t methods, bool one_row
 struct SharedMethodKeys::Impl {
   std::optional<Document> document;
   std::map<std::string, Setting> settings;
-  std::vector<std::pair<std::string, std::string>> unused{};  // a key and the reason, in order of occurrence
-  std::map<std::pair<std::string, std::string>, std::vector<std::string>> methods{};  // that do not use the key
+  std::vector<std::pair<std::string, std::string>> unused{};  // keys and reasons, in order of occurrence
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> methods{};  // methods that do not use the key
 };
 
 SharedMethodKeys::SharedMethodKeys(const std::string& text, const std::vector<std::string>& sets)
@@ -160,7 +161,8 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
     if (key == name_key || !contains(all_method_keys(), key)) continue;
     const std::string why = why_not(key);
     if (why.empty()) {
-      method.options[key] = table->get(key)->value_exact<std::string>().value_or(setting.text);  // texts without quotes
+      // texts without their quotes
+      method.options[key] = table->get(key)->value_exact<std::string>().value_or(setting.text);
       continue;
     }
     const std::pair<std::string, std::string> entry{path + (setting.line > 0 ? "" : " of " + option_name("set")), why};
@@ -181,7 +183,7 @@ std::vector<std::string> SharedMethodKeys::unknown() const {
 }
 
 std::vector<std::string> SharedMethodKeys::notes(bool one_row_each) const {
-  std::vector<std::pair<std::string, std::string>> parts;  // keys, and the methods with the reason
+  std::vector<std::pair<std::string, std::string>> parts;  // keys, and a text with the methods and the reason
   for (const auto& entry : impl_->unused) {
     const auto& [key, why] = entry;
     const std::vector<std::string>& methods = impl_->methods.at(entry);

@@ -22,7 +22,8 @@ std::string explained_with_default(const OptionInfo& option) {
 }
 
 std::string example_text(const OptionInfo& option) {
-  const bool own = !option.example.empty() || option.keys.empty();  // an example is declared, or the keys are free
+  // an example is declared, or the table has no declared keys
+  const bool own = !option.example.empty() || option.keys.empty();
   if (option.type == OptionType::table && own) return option.example;
   if (option.type == OptionType::table) {
     std::vector<OptionInfo> keys = option.keys;

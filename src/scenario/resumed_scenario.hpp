@@ -7,7 +7,7 @@ namespace hamflow {
 
 /// Like read_scenario(). If the file with the initial particles no longer exists, the start is read from the file of
 /// the run, with a note.
-/// @param folder of the run; empty: the folder that the scenario gives
+/// @param folder folder of the run; empty: the folder that the scenario gives
 Reading read_resumed_scenario(const std::filesystem::path& file, const std::vector<std::string>& sets,
                               const std::string& folder);
 

@@ -9,17 +9,17 @@
 
 namespace hamflow {
 
-inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // t = n h needs n exact in double
+inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // n has to be exact in double, so that t = n h is
 
-/// The keys of `run.lattice`.
+/// Keys of `run.lattice`.
 struct LatticeKeys {
   OptionInfo position, momentum;
 };
-/// The keys of `run.section`. The problem defines the allowed words of `coordinate`.
+/// Keys of `run.section`. The problem defines the allowed words of `coordinate`.
 struct SectionKeys {
   OptionInfo coordinate, expression, value, direction;
 };
-/// The keys of each entry of `run.events`.
+/// Keys of each entry of `run.events`.
 struct EventKeys {
   OptionInfo name, expression, direction, action;
 };
@@ -45,13 +45,13 @@ struct DeclaredTable {
   std::string name;
   std::vector<OptionInfo> keys;
 };
-/// [run] and [output].
+/// Returns [run] and [output].
 const std::vector<DeclaredTable>& declared_tables();
 const DeclaredTable& declared_table(const std::string& name);
-/// The dotted path of a key of [run] or [output], as in --set.
+/// Returns the dotted path of a key of [run] or [output], as in --set.
 inline std::string run_path(const OptionInfo& key) { return std::string(run_table) + "." + key.name; }
 inline std::string output_path(const OptionInfo& key) { return std::string(output_table) + "." + key.name; }
-/// Whether a key may have another value with --resume, e.g. "run.steps".
+/// Returns whether a key, for example "run.steps", may have another value with --resume.
 bool is_free_on_resume(const std::string& path);
 
 }  // namespace hamflow

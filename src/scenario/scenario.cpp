@@ -33,7 +33,7 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
   }
 }
 
-/// Advice for errors of the TOML parser whose messages have none.
+/// Returns advice for errors of the TOML parser whose messages contain none.
 std::string hint_to(std::string_view description) {
   const auto says = [&](std::string_view part) { return description.find(part) != std::string_view::npos; };
   if (says("could not determine value type")) {
@@ -108,10 +108,10 @@ Reading read_text(const std::string& text, const std::string& name, const std::v
   if (!document) return reading;
   document->resumed_in = resumed_in;
   Scenario scenario = ScenarioReader(*document, name, reading.complaints).read();
-  drop_replaced_method_keys(document->root, document->file_method);  // the reader has noted them
+  drop_replaced_method_keys(document->root, document->file_method);  // the reader has already noted them
   scenario.text = effective_text(text, sets, document->root);
   scenario.settings = settings_of(document->root);
-  // Sorted in the order of the file.
+  // Complaints are listed in the order of the file.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });
   if (reading.complaints.empty()) reading.scenario = std::move(scenario);

@@ -1,4 +1,4 @@
-// [problem].bodies: two bodies in space. The problem is their relative motion in its plane.
+// Reads [problem].bodies: two bodies in space. The problem is their relative motion in its plane.
 #include <cmath>
 
 #include "scenario_reader.hpp"
@@ -8,14 +8,14 @@ namespace hamflow {
 
 namespace {
 
-/// The texts of the numbers of a body.
+/// Numbers of a body as texts.
 struct BodyTexts {
   std::string mass, position[3], velocity[3];
 };
 
-/// The planar start of TwoBodies as expressions of the given numbers, which have more digits than double in some
-/// arithmetics. With the relative position r and velocity v it is (|r|, 0), mu (r.v, |r x v|)/|r|; in polar coordinates
-/// the second momentum is the angular momentum mu |r x v|.   [Gross1999, (2.1)-(2.20)]
+/// Returns the planar start of TwoBodies as expressions of the given numbers, which have more digits than double in
+/// some arithmetics. With the relative position r and velocity v it is (|r|, 0), mu (r.v, |r x v|)/|r|; in polar
+/// coordinates the second momentum is the angular momentum mu |r x v|.   [Gross1999, (2.1)-(2.20)]
 StartSpec in_any_digits(const BodyTexts& first, const BodyTexts& second, const std::string& mu, bool polar) {
   std::string r[3], v[3], rr, rv, cc;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -29,7 +29,8 @@ ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name,
   impl_->name = name;
   if (auto document = parsed_document(text, name, sets, impl_->complaints)) impl_->document = std::move(*document);
   std::vector<Complaint> the_same;
-  if (auto common = parsed_document(text, name, sets, the_same)) {  // parsed again: a copy loses the order of keys
+  // parsed again, because a copy loses the order of keys
+  if (auto common = parsed_document(text, name, sets, the_same)) {
     drop_replaced_method_keys(common->root, common->file_method);
     impl_->settings = settings_of(common->root);
     impl_->text = effective_text(text, sets, common->root);

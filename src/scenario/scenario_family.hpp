@@ -18,17 +18,17 @@ class ScenarioFamily {
   ScenarioFamily(const ScenarioFamily&) = delete;
   ScenarioFamily& operator=(const ScenarioFamily&) = delete;
 
-  /// The errors that all members have.
+  /// The errors that all members share.
   const std::vector<Complaint>& complaints() const;
-  /// Parses a value that members may have, so that it is parsed only once. @return its number
+  /// Parses a value for later members, so that it is parsed only once. @return its number
   std::size_t add_value(const std::string& text);
   void replace_value(std::size_t number, const std::string& text);
   /// Sets paths[i] to the value with number values[i] and reads the scenario. Its text is empty. If the only error is
   /// that no start has the requested energy, `startless` is set in place of `scenario`.
   Reading read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values);
-  /// The scenario common to all members, with every --set, before any key is varied.
+  /// The scenario that all members share, with every --set, before any key is varied.
   const std::string& text() const;
-  /// The keys of the common scenario. Keys of single members are not listed.
+  /// The keys of the shared scenario. Keys of single members are not listed.
   const std::map<std::string, Setting>& settings() const;
 
  private:

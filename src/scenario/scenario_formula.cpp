@@ -1,4 +1,4 @@
-// [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The formulas are
+// Reads [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The formulas are
 // checked and become an entry of the catalogue, which is then used like any other problem.
 #include <algorithm>
 #include <cctype>
@@ -14,7 +14,7 @@ namespace hamflow {
 
 namespace {
 
-/// The texts of a table of formulas, { L = "x*p_y - y*p_x" }, in the order of the file.
+/// Returns the texts of a table of formulas, { L = "x*p_y - y*p_x" }, in the order of the file.
 std::vector<std::pair<std::string, std::string>> named_texts(TomlTable table) {
   std::vector<std::pair<std::string, std::string>> all;
   for (const std::string& name : table.keys()) {
@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::string>> named_texts(TomlTable table) {
   return all;
 }
 
-/// Whether two problems differ only in values of parameters that the choices of the first do not contain.
+/// Returns whether two problems differ only in values of parameters that the choices of the first do not contain.
 bool have_same_choices(const FormulaTexts& one, const Choices& choices, const FormulaTexts& other) {
   const auto same_parameter = [&](const std::string& name, const std::string& text) {
     const auto there = other.parameters.find(name);
@@ -43,7 +43,8 @@ bool have_same_choices(const FormulaTexts& one, const Choices& choices, const Fo
                      [&](const auto& parameter) { return same_parameter(parameter.first, parameter.second); });
 }
 
-/// The choices of a typed problem. The members of a sweep are read one after the other, so the last result is kept.
+/// Returns the choices of a typed problem. It keeps the last result, because a sweep reads its members one after the
+/// other.
 const Choices& remembered_choices(const FormulaTexts& texts) {
   thread_local FormulaTexts last;
   thread_local Choices found;
@@ -100,7 +101,7 @@ std::set<std::string> words_of(const std::string& text) {
 }
 }  // namespace
 
-/// Refuses parameters that no formula uses, since a misspelt name would otherwise have no effect without notice.
+/// Refuses parameters that no formula uses, because a misspelt name would otherwise silently have no effect.
 void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts) {
   std::string all = texts.hamiltonian + " " + texts.kinetic + " " + texts.potential;
   for (const std::string& coordinate : texts.coordinates) all += " " + coordinate;
@@ -194,7 +195,7 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
 }
 
 namespace {
-/// The formula of a key such as "kinetic" or "invariants.L"; null if the key has none.
+/// Returns the formula of a key such as "kinetic" or "invariants.L"; null if the key has none.
 std::string* formula_at(FormulaTexts& texts, const std::string& key) {
   using Keys = FormulaKeys;
   if (key == Keys::hamiltonian) return &texts.hamiltonian;
@@ -207,7 +208,7 @@ std::string* formula_at(FormulaTexts& texts, const std::string& key) {
 }
 }  // namespace
 
-/// Complains about further wrong formulas: replaces each wrong formula by "0" and checks again, until none is wrong.
+/// Complains about further wrong formulas. It replaces each wrong formula by "0" and checks again, until none is wrong.
 void ScenarioReader::tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong) {
   const std::string right = "0";
   for (;;) {

@@ -1,4 +1,5 @@
-// [problem] with the gas: the words that choose its entry of the catalogue, its parameters, and the initial particles.
+// Reads [problem] for the gas: the words that choose its entry of the catalogue, its parameters, and the initial
+// particles.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -21,8 +22,8 @@ namespace hamflow {
 
 namespace {
 
-/// Complains about keys that the gas has in another table, and names the right place.
-/// @param own the path of the table, with a final dot
+/// Complains about keys that the gas has in another table, and names the right table.
+/// @param own path of the table, with a final dot
 void tell_places(TomlTable& table, const std::string& own) {
   const GasOptions& o = gas_options();
   const WallKeys& walls = wall_keys();
@@ -33,7 +34,7 @@ void tell_places(TomlTable& table, const std::string& own) {
   for (const std::string& key : table.keys()) {
     if (table.knows(key)) continue;
     std::vector<std::string> places;
-    bool is_own = own == "problem." + key + ".";  // a table in itself
+    bool is_own = own == "problem." + key + ".";  // the key is the name of its own table
     for (const auto& [path, keys] : tables) {
       if (find_option(keys, key) == nullptr) continue;
       is_own = is_own || path == own;
@@ -112,7 +113,7 @@ void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
   cutoff.finish();
 }
 
-/// The number of coordinates in `initial`; 0 if it is missing or wrong, which is complained about elsewhere.
+/// Returns the number of coordinates in `initial`; 0 if it is missing or wrong, which another check reports.
 std::size_t size_of_initial(const TomlTable& table) {
   const toml::node* const initial = table.node().get("initial");
   const toml::table* const state = initial != nullptr ? initial->as_table() : nullptr;
@@ -120,13 +121,13 @@ std::size_t size_of_initial(const TomlTable& table) {
   return q != nullptr && q->is_array() ? q->as_array()->size() : 0;
 }
 
-/// The dimension; 2 if it is missing or wrong.
+/// Returns the dimension of space; 2 if it is missing or wrong.
 std::size_t space_of(const Texts& parameters) {
   const auto given = parameters.find(GasKeys::dimension);
   return given != parameters.end() && number_value(given->second) == 3 ? 3 : 2;
 }
 
-/// The edges of a box that a lattice can fill; empty if the container is not a box, or the box is wrong.
+/// Returns the edges of a box that a lattice can fill; empty if the container is not a box, or the box is wrong.
 std::vector<std::string> edges_of_box(const Choices& choices, const Texts& parameters, std::size_t space) {
   const auto container = choices.find(GasKeys::container);
   const auto size = parameters.find(GasKeys::size);
@@ -209,7 +210,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
 }
 
 namespace {
-/// The column, from 1, at which a formula contains the time t; 0 if it does not.
+/// Returns the column, counted from 1, at which a formula contains the time t; 0 if it does not.
 std::size_t column_of_time(const std::string& formula) {
   const auto in_name = [&](std::size_t i) {
     return i < formula.size() && (std::isalnum(static_cast<unsigned char>(formula[i])) != 0 || formula[i] == '_');
@@ -287,8 +288,8 @@ void ScenarioReader::note_unused_start(const TomlTable& table) {
                             " not used, because initial gives the start of the particles");
 }
 
-/// The run.h5 of a resumed run, which contains the start. Empty if there is none, or if the start has more digits than
-/// double.
+/// Returns the run.h5 of a resumed run, which contains the start. Empty if there is none, or if the start has more
+/// digits than double.
 std::filesystem::path ScenarioReader::resumed_run() {
   if (!resumed_in_) return {};
   const std::string arithmetic =
@@ -300,7 +301,8 @@ std::filesystem::path ScenarioReader::resumed_run() {
   return is_in_run_file(folder / "run.h5") ? folder / "run.h5" : std::filesystem::path();
 }
 
-/// Removes the masses from a start of a run.h5 if the scenario gives them. A run.h5 always has masses, and these agree.
+/// Removes the masses from a start that was read from a run.h5 if the scenario gives them. A run.h5 always has masses,
+/// and both agree.
 GasStart ScenarioReader::without_own_masses(const TomlTable& table, GasStart start) {
   if (table.has(gas_options().masses.name)) start.masses.clear();
   return start;
@@ -381,7 +383,7 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
   const std::string word = table.text(o.scale).value_or(n == 0 ? "1" : GasScales::per_side);
   const bool corner = table.plain_string(o.start.name) == GasStarts::corner && !table.has("initial");
   if (word == GasScales::per_side) {
-    if (n == 0 && !table.has(o.particles_per_side.name)) {  // a wrong value was complained about already
+    if (n == 0 && !table.has(o.particles_per_side.name)) {  // another check reports a wrong value
       table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else \"" +
                                        GasScales::listing + "\" or a number");
     }
@@ -404,8 +406,8 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
   }
 }
 
-/// Checks the number of masses of a gas whose start is generated. The number of particles is known then, so the masses
-/// are wrong if the two do not agree.
+/// Checks the number of masses of a gas whose start is generated. The number of particles is then known, so the masses
+/// are wrong if the numbers disagree.
 bool ScenarioReader::check_masses(TomlTable& table) {
   const Request& request = scenario_.request;
   const std::size_t size = request.start.q.size();
@@ -419,7 +421,7 @@ bool ScenarioReader::check_masses(TomlTable& table) {
 
 namespace {
 
-/// The numbers of the particles at the beginning of a message: "particles 1 and 3 at", "particle 2 at", "y2 = 1
+/// Returns the numbers of the particles at the beginning of a message: "particles 1 and 3 at", "particle 2 at", "y2 = 1
 /// beyond".
 std::vector<std::size_t> particles_of(const std::string& why) {
   const std::size_t end = std::min({why.find(" at "), why.find(" = "), why.size()});
@@ -434,7 +436,7 @@ std::vector<std::size_t> particles_of(const std::string& why) {
   return all;
 }
 
-/// The key of the container or wall that a message about a particle refers to; empty if it refers to none.
+/// Returns the key of the container or wall that a message about a particle refers to; empty if there is none.
 std::string key_of_edge(const std::string& why, bool has_walls) {
   const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
   const GasOptions& gas = gas_options();
@@ -446,10 +448,11 @@ std::string key_of_edge(const std::string& why, bool has_walls) {
 
 }  // namespace
 
-/// Complains at the key of the start of the particles. For a CSV it adds the lines of the particles in the message.
+/// Complains at the key that gives the start of the particles. For a CSV file it adds the lines of the particles in the
+/// message.
 void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& usual, std::string message) {
   const GasOptions& gas = gas_options();
-  // If the start is generated, or only the container was changed by --set, the container is the cause.
+  // The container is the cause if the start is generated, or if --set only changed the container.
   const std::string start = table.has("initial") ? "initial" : gas.start.name;
   const std::string edge = key_of_edge(message, table.has(wall_keys().walls.name));
   const std::string holder = edge.substr(0, edge.find('.'));
@@ -478,7 +481,7 @@ void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& 
 void ScenarioReader::round_edges(TomlTable& table) {
   Request& request = scenario_.request;
   const auto& refused = scenario_.problem->refused_parameters;
-  if (!refused(request.parameters).second.empty()) return;  // complained about elsewhere
+  if (!refused(request.parameters).second.empty()) return;  // another check reports this
   const std::string& key = run_keys().lattice.name;
   const bool given = table.has(key) && table.table(key).has(lattice_keys().position.name);
   const auto complain = [&](const std::string& message) {
@@ -535,7 +538,7 @@ void ScenarioReader::read_box(TomlTable& table) {
   const std::size_t size = scenario_.request.start.q.size();
   const std::vector<std::string> edges = list_parts(parameters.at(GasKeys::size));
   if (size == 0 || !scenario_.problem->refused_size(parameters, size).empty()) return;
-  if (!scenario_.problem->refused_parameters(parameters).second.empty()) return;  // complained about elsewhere
+  if (!scenario_.problem->refused_parameters(parameters).second.empty()) return;  // another check reports this
   Walls walls;
   for (std::size_t k = 0; k < wall_rules().size(); ++k) {
     if (wall_rules()[k] == word) walls.rule = static_cast<WallRule>(k);
@@ -550,7 +553,7 @@ void ScenarioReader::read_box(TomlTable& table) {
 }
 
 namespace {
-/// Why an option that needs the Hessian is refused for many particles: the matrix does not fit into memory.
+/// Explains why an option that needs the Hessian is refused for many particles: the matrix does not fit into memory.
 std::string without_hessian(const Request& request, std::size_t coordinates, const std::string& above) {
   if (request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian) return {};
   return "with " + std::to_string(coordinates) + " coordinates, but it needs the Hessian; allowed with at most " +
@@ -574,8 +577,8 @@ std::string refused_by_size(const Request& request, std::size_t coordinates) {
   return without_hessian(request, coordinates, other_method({"stv4", "blanes-moan-s6", "cg"}));
 }
 
-/// Checks that a typed formula has derivatives of every order, which taylor needs. Only recording the formula shows it,
-/// and taylor records it when its simulation is made.
+/// Checks that a typed formula has derivatives of every order, which taylor needs. Only recording the formula shows
+/// this, and taylor records it when its simulation is made.
 void ScenarioReader::check_branches() {
   const Request& request = scenario_.request;
   const bool typed =

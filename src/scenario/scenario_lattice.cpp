@@ -1,4 +1,4 @@
-// The units of the lattice: given by the scenario, or chosen for the start.
+// Sets the grid spacing of the lattice: the one that the scenario gives, or one that suits the start.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,12 +10,12 @@
 
 namespace hamflow {
 
-/// Chooses the default units: 2^-52 of the largest number of the start, which gives a range of 1024 times this number.
-/// Most problems use 2^-52 for all numbers from 1/512 to 2, because a start near rest says little about the motion. For
-/// bodies that attract each other the momenta to expect are those with a kinetic energy as large as the present
-/// potential energy. The kick of a pair may be at most 2^62 units divided by the number of pairs (PairSums). For a gas
-/// of more than a thousand particles that is less than the largest momentum, which one encounter can reverse; so the
-/// unit is made larger, until a kick may be four times the largest momentum.
+/// Chooses the default grid spacing: 2^-52 of the largest number of the start, so that numbers may grow to 1024 times
+/// this number. If the largest number is between 1/512 and 2, the spacing is 2^-52, because a start near rest says
+/// little about the motion. For bodies that attract each other, the expected momenta are those with a kinetic energy as
+/// large as the current potential energy. The kick of a pair may be at most 2^62 units divided by the number of pairs
+/// (PairSums). For a gas of more than a thousand particles that is less than the largest momentum, which one encounter
+/// can reverse. Therefore the spacing is increased until a kick may be four times the largest momentum.
 void ScenarioReader::usual_units() {
   const auto largest = [](const std::vector<double>& values) {
     double most = 0;
@@ -31,7 +31,7 @@ void ScenarioReader::usual_units() {
   const bool gas = scenario_.problem != nullptr && scenario_.problem->particles;
   const bool pairwise =
       !gas && scenario_.problem != nullptr && scenario_.problem->has_pairwise_forces && !scenario_.start_q.empty();
-  // Positions behind a mirror, at the same distance as in front of it, must be exact in double, too.
+  // Positions behind a mirror, as far from it as those in front of it, have to be exact in double, too.
   std::vector<double> positions = scenario_.start_q;
   const auto& walls = request.walls;
   if (walls && (pairwise ? walls->rule == WallRule::mirror : walls->hard())) {
@@ -49,7 +49,7 @@ void ScenarioReader::usual_units() {
     if (bits > 10) request.momentum_unit = std::ldexp(request.momentum_unit, bits - 8);
     return;
   }
-  // The momenta of the start (or equal ones, if they are 0), scaled so that T = |V|.
+  // The expected momenta are those of the start (or equal ones, if they are 0), scaled so that T = |V|.
   const double most = largest(scenario_.start_p);
   const auto energy_with = [&](double factor) {
     std::vector<double> p = scenario_.start_p;

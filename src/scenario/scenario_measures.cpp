@@ -10,7 +10,8 @@ namespace hamflow {
 
 namespace {
 
-/// The names that a section may use: coordinates, then momenta. For bodies the numbered names q1, ..., pn are added.
+/// Returns the names that a section may use: coordinates, then momenta. For bodies the numbered names q1, ..., pn are
+/// added.
 std::vector<std::vector<std::string>> section_names(const ProblemEntry& problem, const Texts& parameters,
                                                     std::size_t size) {
   const auto row = [](const StateNames& names) {
@@ -45,12 +46,12 @@ void ScenarioReader::read_measures(TomlTable& table) {
   if (const auto most = table.whole(keys.record_events)) {
     scenario_.record_events = *most;
   } else if (const auto size = static_cast<std::int64_t>(scenario_.start_q.size()); size > 10000) {
-    // A row has the whole state. For very many particles the table is limited to 1 GiB.
+    // A row contains the whole state. For very many particles the table is limited to 1 GiB.
     scenario_.record_events = std::min<std::int64_t>(scenario_.record_events, (std::int64_t{1} << 30) / (16 * size));
   }
 }
 
-/// Refuses a key that needs derivatives of steps if they do not exist: steps are differentiated only in double, and
+/// Refuses a key that needs derivatives of steps if these do not exist. Steps are differentiated only in double, and
 /// only if each is one step of a fixed map.
 void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key) {
   const OptionInfo& arithmetic = run_keys().arithmetic;
@@ -124,7 +125,7 @@ void ScenarioReader::read_section(TomlTable& table) {
     return;
   }
   TomlTable section = table.table(key);
-  if (!section.exists()) return;  // complained about elsewhere
+  if (!section.exists()) return;  // another check reports this
   const SectionKeys& keys = section_keys();
   Section wanted;
   if (const auto value = section.text(keys.value)) {
@@ -181,7 +182,7 @@ void ScenarioReader::read_section_coordinate(TomlTable& section, Section wanted)
 }
 
 namespace {
-/// The index in (q, p) of the first number of the state that an expression uses; `all` if it uses none.
+/// Returns the index in (q, p) of the first number of the state that an expression uses; `all` if it uses none.
 std::size_t first_used(const StateExpression& expression, std::size_t all) {
   std::size_t first = 0;
   while (first < all && !expression.uses(first)) ++first;
@@ -189,7 +190,7 @@ std::size_t first_used(const StateExpression& expression, std::size_t all) {
 }
 }  // namespace
 
-/// Reads an expression whose zeros are searched. It must not be constant.
+/// Reads an expression whose zeros are located. It must not be constant.
 std::optional<StateExpression> ScenarioReader::read_changing_expression(TomlTable& table, const OptionInfo& key) {
   auto expression = read_expression(table, key);
   const std::size_t all = 2 * scenario_.start_q.size();
@@ -215,14 +216,14 @@ void ScenarioReader::read_section_expression(TomlTable& section, Section wanted)
   scenario_.section = wanted;
 }
 
-/// The expression in arithmetic with more digits than double; empty in double.
+/// Returns the expression in arithmetic with more digits than double; empty in double.
 ExpressionInDigits ScenarioReader::in_digits(const StateExpression& expression) const {
   if (digits_beyond_double(scenario_.request.arithmetic) == 0) return {};
   return expression_in_digits(expression.text(), *scenario_.problem, scenario_.request.parameters,
                               scenario_.start_q.size());
 }
 
-/// Reads an expression of the state. If it is wrong, the complaint names the column in it.
+/// Reads an expression of the state. If it is wrong, the complaint names the column in the expression.
 std::optional<StateExpression> ScenarioReader::read_expression(TomlTable& table, const OptionInfo& key) {
   const auto text = table.text(key);
   if (!text || scenario_.problem == nullptr || scenario_.start_q.empty()) return std::nullopt;

@@ -14,7 +14,7 @@ void ScenarioReader::read_method(TomlTable& table) {
   MethodSpec& spec = scenario_.request.method;
   if (!read_method_name(table)) {
     spec.name.clear();
-    table.know_all(all_method_keys());  // the method is unknown, so no key can be called wrong
+    table.know_all(all_method_keys());  // without a method no key can be called wrong
     table.finish();
     return;
   }
@@ -56,7 +56,7 @@ void ScenarioReader::read_method(TomlTable& table) {
   table.finish(scenario_.problem.get(), spec.name);
 }
 
-/// Complains at the option that the message names ("monitor: found ...") if [method] has it, else at the name.
+/// Complains at the option that the message names ("monitor: found ...") if [method] has it, otherwise at the name.
 void ScenarioReader::complain_of_method(TomlTable& table, const std::string& why_not) {
   for (const OptionInfo& option : find_method(scenario_.request.method.name).family->options) {
     const std::string head = option.name + ": ";
@@ -67,7 +67,7 @@ void ScenarioReader::complain_of_method(TomlTable& table, const std::string& why
   table.complain(key, table.found(key) + "; " + why_not);
 }
 
-/// Refuses options that a step with so many unknowns does not allow, and notes options that were replaced.
+/// Refuses options that a step with this many unknowns does not allow, and notes options that were replaced.
 void ScenarioReader::check_method_for_size(TomlTable& table) {
   if (!has_method() || scenario_.problem == nullptr || refused_option(scenario_.request.method)) return;
   const MethodSpec& spec = scenario_.request.method;

@@ -47,10 +47,10 @@ FigureFacts ScenarioReader::figure_facts() const {
   return facts;
 }
 
-/// Reads the observables. Their names become columns of files and figures, beside those of the state.
+/// Reads the observables. Their names become columns of files and figures, like those of the state.
 void ScenarioReader::read_observables(TomlTable& output) {
   const std::string& key = output_keys().observables.name;
-  // Without a start the parameters are not known either.
+  // Without a start the parameters are unknown, too.
   const bool known = scenario_.problem != nullptr && !scenario_.start_q.empty();
   const std::size_t size = scenario_.start_q.size();
   if (known) {
@@ -67,7 +67,7 @@ void ScenarioReader::read_observables(TomlTable& output) {
     output.know(key);
     return;
   }
-  std::vector<std::string> taken;  // made only if needed: for many particles the list is long
+  std::vector<std::string> taken;  // filled only if needed, because for many particles the list is long
   if (known) {
     taken = columns_of_every_run(*scenario_.problem, scenario_.request.parameters, size);
     for (const NamedExpression& own : scenario_.observables) taken.push_back(own.name);

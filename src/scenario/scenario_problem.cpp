@@ -25,7 +25,7 @@ const OptionInfo& problem_name_key() {
   return key;
 }
 
-/// Whether this is a key of an entry of the catalogue, other than the keys that select the entry.
+/// Returns whether an entry of the catalogue has this key, apart from the keys that select the entry.
 bool has_key(const ProblemInfo& info, const std::string& key) {
   if (find_option(keys_of(info), key) != nullptr) return true;
   if (!info.frame.name.empty() && key == info.frame.name) return true;
@@ -37,7 +37,7 @@ bool has_key(const ProblemInfo& info, const std::string& key) {
   return (key == "orbit" && !info.starts.empty()) || (key == "bodies" && info.two_bodies);
 }
 
-/// Whether some problem has this key in [problem].
+/// Returns whether any problem has this key in [problem].
 bool is_problem_key(const std::string& key) {
   const WallKeys& walls = wall_keys();
   for (const std::string& each :
@@ -51,7 +51,7 @@ bool is_problem_key(const std::string& key) {
          std::any_of(typed_examples().begin(), typed_examples().end(), has);
 }
 
-/// The choices of a problem with which a key is allowed that the chosen ones do not allow: 'with potential = "power"';
+/// Returns the choices of a problem that allow a key which the chosen ones do not allow: 'with potential = "power"';
 /// empty if there are none.
 std::string other_choices_with(const std::string& name, const Choices& chosen, const std::string& key) {
   for (const auto& entries : {problems(), typed_examples()}) {
@@ -61,7 +61,7 @@ std::string other_choices_with(const std::string& name, const Choices& chosen, c
     }
   }
   std::vector<std::string> selecting;
-  std::map<std::string, std::vector<std::string>> values;  // values of each selecting key with which the key is allowed
+  std::map<std::string, std::vector<std::string>> values;  // values of each selecting key that allow the key
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name || !has_key(entry.info, key)) continue;
     for (const auto& [choice, value] : entry.info.variant) {
@@ -106,13 +106,13 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const bool particles = static_cast<bool>(listed->particles);
   particles ? read_gas(table) : typed ? read_typed_problem(table, *listed) : read_variant(table, *name);
   if (scenario_.problem == nullptr) {
-    if (!particles) read_uncertain(table, *name);  // for a gas all errors were reported already
+    if (!particles) read_uncertain(table, *name);  // read_gas() has reported all errors of a gas
     return;
   }
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
-    if (scenario_.request.parameters.contains(parameter.name)) continue;  // read already with the entry
+    if (scenario_.request.parameters.contains(parameter.name)) continue;  // already read together with the entry
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
       scenario_.request.parameters[parameter.name] = *text;
     }
@@ -154,15 +154,15 @@ void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
   if (message.empty()) return;
   if (key.empty()) {
     table.complain("name", "found parameters that do not fit together; allowed: " + message);
-  } else if (key.find('.') != std::string::npos) {  // a key of a subtable: the message says what was found
+  } else if (key.find('.') != std::string::npos) {  // the message about a key of a subtable already says what was found
     table.complain_in(key, message);
   } else {
     table.complain(key, table.found(key) + "; " + message);
   }
 }
 
-/// Called if the variant or the name is wrong, which was complained about already. Complains about all keys that are
-/// wrong for every variant, so that the user sees all errors at once.
+/// Called if the variant or the name is wrong, which has been reported. Complains about all keys that are wrong for
+/// every variant, so that the user sees all errors at once.
 void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
   std::vector<std::string> seen;
   std::vector<std::string> kinds;
@@ -173,7 +173,7 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
     for (const ParameterInfo& parameter : entry.info.parameters) {
       if (std::find(seen.begin(), seen.end(), parameter.name) != seen.end()) continue;
       seen.push_back(parameter.name);
-      OptionInfo optional = parameter;  // whether it is required is not known
+      OptionInfo optional = parameter;  // whether it is required is unknown
       optional.required = false;
       (void)table.text(optional, " (" + parameter.meaning + ")");
     }
@@ -200,7 +200,7 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
 }
 
 namespace {
-/// The other choice with which a selecting key is allowed: 'with coordinates = "cartesian"'.
+/// Returns the other choice that allows a selecting key: 'with coordinates = "cartesian"'.
 std::string where_allowed(const std::string& name, const std::string& key) {
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name || choice_of(entry.info, key).empty()) continue;
@@ -210,8 +210,8 @@ std::string where_allowed(const std::string& name, const std::string& key) {
   return "for other problems";
 }
 
-/// The keys that select among the entries of one name, with their words and defaults. A key without a default is
-/// required.
+/// Returns the keys that select among the entries of one name, with their words and defaults. A key without a default
+/// is required.
 const std::vector<OptionInfo>& selecting_keys(const std::string& name) {
   static const std::map<std::string, std::vector<OptionInfo>> all = [] {
     std::map<std::string, std::vector<OptionInfo>> found;
@@ -241,7 +241,7 @@ const std::vector<OptionInfo>& selecting_keys(const std::string& name) {
 }
 }  // namespace
 
-/// The values of a selecting key.
+/// Returns the values of a selecting key.
 std::vector<std::string> ScenarioReader::choices_of_key(const std::string& name, const std::string& key) {
   return find_option(selecting_keys(name), key)->words;
 }

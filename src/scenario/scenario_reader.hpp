@@ -14,19 +14,19 @@ struct FigureFacts;
 struct Document {
   toml::table root;
   std::string file_method;                  // name of the method in the file, before any --set
-  std::optional<std::string> resumed_in{};  // folder of a run that is resumed; empty text: the folder of the scenario
+  std::optional<std::string> resumed_in{};  // folder of a resumed run; empty text: the folder of the scenario
 };
 
 /// Parses a text and applies every --set. If the text is not TOML, it complains and returns nullopt.
 std::optional<Document> parsed_document(const std::string& text, const std::string& name,
                                         const std::vector<std::string>& sets, std::vector<Complaint>& complaints);
-/// The text of the scenario that is run: the text of the file or, if something was set from outside, the document as
-/// text. `run` reads it without any --set.
+/// Returns the text of the scenario that is run: the text of the file or, if a key was set from outside, the document
+/// as text. `run` reads it without any --set.
 std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root);
-/// Every value by its dotted path.
+/// Returns every value by its dotted path.
 std::map<std::string, Setting> settings_of(const toml::table& root);
 
-/// Whether [problem] has a typed choice (ProblemInfo::typed_choice).
+/// Returns whether [problem] has a typed choice (ProblemInfo::typed_choice).
 bool has_typed_choice(TomlTable& table, const ProblemInfo& info);
 
 /// Reads and checks the parts of one scenario. Each function collects complaints and continues.
@@ -64,7 +64,7 @@ class ScenarioReader {
     return scenario_;
   }
 
-  /// Why no start has the requested energy; empty if one has, or no energy was requested.
+  /// Explains why no start has the requested energy; empty if one has, or no energy was requested.
   const std::string& no_start() const { return no_start_; }
 
  private:
@@ -140,9 +140,9 @@ class ScenarioReader {
   const std::optional<std::string>& resumed_in_;
   const toml::table& document_;
   std::string no_start_;
-  std::string driven_hamiltonian_;        // the text of H(q, p, t); empty if H does not depend on t
-  std::vector<std::size_t> start_lines_;  // lines of the particles in the CSV of a gas
-  StartSpec start_of_bodies_;             // as expressions that every arithmetic evaluates with all its digits
+  std::string driven_hamiltonian_;        // text of H(q, p, t); empty if H does not depend on t
+  std::vector<std::size_t> start_lines_;  // lines of the particles in the CSV file of a gas
+  StartSpec start_of_bodies_;             // start as expressions that every arithmetic evaluates with all its digits
   Scenario scenario_;
 };
 

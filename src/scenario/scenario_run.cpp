@@ -10,7 +10,7 @@ namespace hamflow {
 
 namespace {
 
-/// The number of values in a sample: positions and momenta; for particles velocities, too.
+/// Returns the number of values in a sample: positions and momenta, and velocities for particles.
 std::size_t numbers_of_sample(const Scenario& scenario) {
   return scenario.start_q.size() * (scenario.problem != nullptr && scenario.problem->particles ? 3 : 2);
 }
@@ -87,8 +87,8 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
 }
 
-/// Refuses a key of times if the steps have varying lengths: t is then a part of the state, and no step ends at a given
-/// time. Returns true if it complained.
+/// Refuses a key of times if the steps have varying lengths, because t is then a part of the state, and no step ends at
+/// a given time. Returns true if it complained.
 bool ScenarioReader::refuse_time(TomlTable& table, const std::string& key, const std::string& allowed) {
   if (!table.has(key) || !has_method() || !describe(scenario_.request.method).varies_steps) return false;
   table.complain(key, table.found(key) + " with " + describe(scenario_.request.method).name + "; allowed " + allowed +
@@ -132,8 +132,8 @@ void ScenarioReader::read_length(TomlTable& table) {
   }
 }
 
-/// Reads the samples: by steps, or at given times. A time belongs to the step before it; a time that is the time of a
-/// step up to rounding belongs to that step.
+/// Reads the samples: by steps, or at given times. A time belongs to the step before it; a time that equals the time of
+/// a step up to rounding belongs to that step.
 void ScenarioReader::read_samples(TomlTable& table) {
   const RunKeys& keys = run_keys();
   const auto every = table.whole(keys.record_every);
@@ -145,7 +145,7 @@ void ScenarioReader::read_samples(TomlTable& table) {
                    "found " + keys.record.name + " and " + keys.record_every.name + " together; allowed one of them");
     return;
   }
-  if (scenario_.dt == 0) return;  // complained about elsewhere
+  if (scenario_.dt == 0) return;  // another check reports this
   const auto steps = static_cast<double>(scenario_.steps);
   double before = 0;
   for (const std::string& time : *times) {

@@ -34,11 +34,11 @@ void ScenarioReader::read_numbered_start(TomlTable& table) {
     for (const std::string& key : start.keys) {
       table.know(key);
       if (!table.has(key) || std::find(of_this.begin(), of_this.end(), key) != of_this.end()) continue;
-      if (table.has(info.start_key) && !number) continue;  // the case is unknown
+      if (table.has(info.start_key) && !number) continue;  // which case is meant is unknown
       const std::string message = table.found(key) + "; allowed only with " + info.start_key + " = ...";
       if (!table.has(info.start_key)) table.complain(key, message);
       if (number) table.complain(key, table.found(key) + "; allowed with this case: " + joined(of_this));
-      of_this.push_back(key);  // complain only once
+      of_this.push_back(key);  // prevents a second complaint
     }
   }
 }
@@ -59,7 +59,7 @@ void ScenarioReader::read_orbit(TomlTable& table) {
   if (!orbit.exists()) return;
   const ProblemInfo& info = scenario_.problem->info;
   std::vector<std::string> kinds;
-  const StartInfo* by_keys = nullptr;  // the start that needs no kind
+  const StartInfo* by_keys = nullptr;  // the start without a kind, which its keys identify
   for (const StartInfo& start : info.starts) {
     if (start.kind.empty()) {
       by_keys = &start;
@@ -141,7 +141,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
   }
   if (!table.has("initial")) {
     table.know("initial");
-    if (!spec.q.empty()) return;  // a gas has its start already
+    if (!spec.q.empty()) return;  // the start of a gas has been read already
     if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
     if (!problem.info.start_key.empty() && table.has(problem.info.start_key)) return;
     if (!problem.info.default_q.empty()) {
@@ -249,7 +249,7 @@ void ScenarioReader::check_start(TomlTable& table) {
     for (const Condition& condition : conditions) {
       if (condition.holds()) continue;
       possible = false;
-      // The key of a condition is a path from the root. The complaint is made at the table that holds it.
+      // The key of a condition is a path from the root. The table that contains the key makes the complaint.
       const std::string inside = condition.key.substr(std::string("problem.").size());
       const bool in_orbit = inside.starts_with("orbit.");
       TomlTable at = in_orbit ? table.table("orbit") : table;
@@ -297,7 +297,7 @@ void ScenarioReader::check_start(TomlTable& table) {
       return;
     }
   }
-  // The other checks only make sense on the constraints.
+  // The other checks need a start that satisfies the constraints.
   if (problem.residuals && !check_constraints(table, start)) return;
   const std::string why_not = problem.refused_start(request.parameters, start.q);
   if (!why_not.empty()) {
@@ -322,7 +322,8 @@ void ScenarioReader::check_start(TomlTable& table) {
 
 namespace {
 
-/// The typed constraint with the largest residual at a point, with its key; for other constraints the sum of all.
+/// Returns the typed constraint with the largest residual at a point, with its key; for other constraints the sum of
+/// all residuals.
 std::string largest_of(const Request& request, const Frame& at, double sum, const std::string& formula) {
   const FormulaTexts texts = formula_texts(request.variant);
   const std::string allowed = "; allowed at most " + shortest(most_residual_at_start) + ": ";

@@ -24,7 +24,7 @@ std::string toml_numbers(const std::vector<std::string>& texts) {
   return toml_text({.name = "", .type = OptionType::list}, "[" + joined(texts) + "]");
 }
 
-/// Rounds to few digits, since the states of an example are arbitrary.
+/// Rounds to few digits, because the states of an example are arbitrary.
 std::string rounded(double x) {
   char buffer[32];
   (void)std::snprintf(buffer, sizeof buffer, "%.3g", x);
@@ -32,13 +32,13 @@ std::string rounded(double x) {
 }
 std::string rounded_list(const std::vector<double>& numbers) { return "[" + joined(numbers, rounded) + "]"; }
 
-/// Lines of TOML with comments at their ends, which are aligned within a block.
+/// Writes lines of TOML with comments at their ends, which are aligned within a block.
 class Page {
  public:
-  /// @param all false: lines that are set alone, without prose
+  /// @param all false: write only keys that are set, without explanations
   explicit Page(bool all) : all_(all) {}
   void line(const std::string& code, const std::string& comment = "") { block_.emplace_back(code, comment); }
-  /// A key that is not set: a line that is commented out.
+  /// Writes a key that is not set, as a comment.
   void off(const std::string& code, const std::string& comment) {
     if (all_) line("# " + code, comment);
   }
@@ -46,7 +46,7 @@ class Page {
   void prose(const std::string& text) {
     if (all_) heading(text);
   }
-  /// The same, in the short form too.
+  /// The same, also in the short form.
   void heading(const std::string& text) {
     end_block();
     write_prose(text);
@@ -107,7 +107,7 @@ struct StartExample {
   Texts parameters;
 };
 
-/// The example that the problem declares, with its parameters.
+/// Returns the example that the problem declares, with its parameters.
 StartExample example_of(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
   const bool own = !info.example_parameters.empty();
   return {&info, info.example, own ? complete(problem.info, info.example_parameters) : parameters};
@@ -125,7 +125,7 @@ bool derives(const StartExample& start, const std::string& parameter) {
   return std::find(derived.begin(), derived.end(), parameter) != derived.end();
 }
 
-/// The differences between the parameters of a start and the active ones: "with k = -1, without alpha".
+/// Returns the differences between the parameters of a start and the active ones: "with k = -1, without alpha".
 std::string difference(const StartExample& start, const Texts& active) {
   std::string with;
   std::string without;
@@ -198,7 +198,7 @@ class TemplateWriter {
     page_.section("problem");
     page_.line("name = \"" + info_.name + "\"");
     for (const auto& [key, value] : info_.variant) {
-      if (find_option(info_.keys, key) != nullptr) continue;  // written below with the other keys
+      if (find_option(info_.keys, key) != nullptr) continue;  // written below together with the other keys
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {
         for (const auto& [other_key, other] : entry.info.variant) {
@@ -208,7 +208,8 @@ class TemplateWriter {
       }
       if (key == info_.typed_choice) all.emplace_back(FormulaKeys::problem);
       std::string code = key;
-      const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
+      // as in dimension = 3
+      const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);
       const char* const mark = is_number ? "" : "\"";
       code.append(" = ").append(mark).append(value).append(mark);
       page_.line(code, joined(all));
@@ -229,7 +230,7 @@ class TemplateWriter {
     write_walls();
   }
 
-  /// The short form gives the meaning of a key alone.
+  /// The short form gives only the meaning of a key.
   std::string comment_on(const OptionInfo& option) const {
     return page_.all() ? explained_with_default(option) : option.meaning;
   }
@@ -350,7 +351,7 @@ class TemplateWriter {
     }
   }
 
-  /// Writes the options of other methods as comments. Options that were explained above are only named.
+  /// Writes the options of other methods as comments. Options that were already explained are only named.
   void write_options_of_others(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
     const bool allowed =
         std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) != allowed_here.end();
@@ -428,7 +429,7 @@ class TemplateWriter {
     }
   }
 
-  /// The first coordinate of the start.
+  /// Returns the first coordinate of the start.
   double first_of_start() const {
     Request request{.problem = info_.name};
     request.variant = {info_.variant.begin(), info_.variant.end()};

@@ -1,14 +1,15 @@
-// A scenario for a problem, to begin with: the keys that matter, or every key, explained beside it.
+// Writes a scenario for a problem as a starting point: its important keys, or every key, with explanations.
 #pragma once
 
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
-/// TOML that can be read and run as it is. Of several starts the one that the example names is set.
-/// @param example complete: with the values of the region where the problem declares none of its own
-/// @param method with its options; an empty name: the usual one of the problem
-/// @param all every key that the problem may have, those that are not set as comments; false: what is set alone
+/// Returns TOML that can be read and run unchanged. If there are several starts, the one of the example is set.
+/// @param example the complete example; uses the values of the region if the problem declares no example
+/// @param method method with its options; empty name: the default method of the problem
+/// @param all true: write every key that the problem may have, unset ones as comments; false: write only keys that are
+/// set
 std::string scenario_template(const ProblemEntry& problem, const ExampleInfo& example, const MethodSpec& method,
                               bool all);
 

@@ -12,7 +12,7 @@ namespace hamflow {
 
 namespace {
 
-/// The names of coordinates, as `show` lists them; for bodies the numbered names q1, q2, ..., too.
+/// Returns the names of coordinates as `show` lists them; for bodies also the numbered names q1, q2, ...
 std::vector<std::vector<std::string>> coordinate_names(const ProblemEntry& problem, const Texts& parameters,
                                                        std::size_t size) {
   std::vector<std::vector<std::string>> names{state_names(problem, parameters, size).q};
@@ -81,7 +81,7 @@ void ScenarioReader::read_walls(TomlTable& table) {
   if (!fixed && !table.has_any(keys.walls.name)) {
     const bool taken_away = table.has(keys.walls.name);  // an empty list removes the walls; their keys are not used
     for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) {
-      // the exponent of a container has another key
+      // The exponent of a container is another key.
       if (taken_away) {
         (void)table.text(*key);
       } else if (table.has(key->name)) {
@@ -109,7 +109,7 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const std::size_t size =
       scenario_.problem->dimension > 0 ? scenario_.problem->dimension : scenario_.request.start.q.size();
   if (complaints_.size() != before || size == 0) return;
-  if (!scenario_.problem->refused_size(parameters, size).empty()) return;  // complained about elsewhere
+  if (!scenario_.problem->refused_size(parameters, size).empty()) return;  // another check reports this
   const auto names = coordinate_names(*scenario_.problem, parameters, size);
   for (const FixedWall& wall : info.walls) {
     walls.intervals.push_back({names.front().at(wall.coordinate), wall.coordinate, wall.min, wall.max});
@@ -141,7 +141,7 @@ void ScenarioReader::read_walls(TomlTable& table) {
 }
 
 namespace {
-/// The rules among `rules` that this problem allows, in quotes, separated by ", ". Walls of a box are hard, soft walls
+/// Returns those of `rules` that this problem allows, in quotes, separated by ", ". Walls of a box are hard, soft walls
 /// need two ends, and on the lattice steps cannot be cut at a bounce.
 std::string rules_taken(const Request& request, const ProblemEntry& problem, const Walls& walls,
                         const std::vector<WallRule>& rules) {
@@ -186,7 +186,7 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   }
   const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // this method needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {
-    if (problem.particles) break;  // each particle has its mass
+    if (problem.particles) break;  // each particle has its own mass
     std::vector<double> p(start_q.size(), 0.0);
     p[wall.index] = 1;
     const std::vector<double> v = problem.gradient(request.parameters, start_q, p).by_p;
@@ -226,7 +226,7 @@ bool ScenarioReader::complain_of_soft_walls() {
   return true;
 }
 
-/// Checks that need the method and the arithmetic.
+/// Makes the checks that need the method and the arithmetic.
 void ScenarioReader::check_walls() {
   const Request& request = scenario_.request;
   const auto& walls = request.walls;
@@ -255,7 +255,7 @@ void ScenarioReader::check_walls() {
       if (text.empty()) continue;
       const double at = number_value(text);
       if (std::abs(at) > 0x1p51 * unit) {
-        int power = 0;  // exponent of the finest unit that is coarse enough for every wall
+        int power = 0;  // exponent of the finest spacing that suffices for every wall
         if (std::frexp(furthest, &power) == 0.5) --power;
         refuse("with a wall at " + text + " and a unit of " + shortest(unit) +
                "; allowed walls within 2^51 units, so that positions behind them are exact in double, e.g. "
@@ -271,7 +271,7 @@ void ScenarioReader::check_walls() {
     }
   }
   if (notes.empty()) return;
-  if (scenario_.problem->particles) {  // one note, since all particles have the same walls
+  if (scenario_.problem->particles) {  // one note, because all particles have the same walls
     notes = {"the walls of the box are moved by up to " + shortest(most) +
              " to multiples of half a unit of the lattice"};
   }

@@ -26,7 +26,7 @@ class Walk {
         if (++depth_ > most_nested_brackets) return here("brackets within more than", most_nested_brackets, "others");
       } else if (c == ']' || c == '}') {
         --depth_;
-      } else if (c == '\n' || c == ',' || c == '=') {  // not a blank: "a . b" is a key of two parts
+      } else if (c == '\n' || c == ',' || c == '=') {  // blanks do not end a key: "a . b" is a key of two parts
         dots_ = 0;
       }
     }

@@ -1,5 +1,5 @@
 // Limits the nesting of a TOML text before it is parsed. toml++ visits and destroys nested tables recursively, and a
-// key of thousands of parts, a.a.a..., makes as many nested tables, which overflow the stack.
+// key with thousands of parts, a.a.a..., makes as many nested tables, which overflow the stack.
 #pragma once
 
 #include <optional>
@@ -7,18 +7,18 @@
 
 namespace hamflow {
 
-/// Far more than any scenario has.
+/// These limits are far above those of any scenario.
 constexpr int most_key_parts = 16;
 constexpr int most_nested_brackets = 32;
 
-/// The place where a text is nested too deeply, with a message.
+/// Position at which a text is nested too deeply, with a message.
 struct TooDeep {
   int line = 1;
   int column = 1;
   std::string message;  // "found ...; allowed ..."
 };
 
-/// The first key with too many parts, or the first bracket that is nested too deeply; nullopt if there is none.
+/// Returns the first key with too many parts, or the first bracket that is nested too deeply; nullopt if there is none.
 std::optional<TooDeep> too_deep(const std::string& toml);
 
 }  // namespace hamflow

@@ -22,7 +22,7 @@ struct Part {
   bool is_index = false;
 };
 
-/// The parts of a path; empty if the text is not a path.
+/// Returns the parts of a path; empty if the text is not a path.
 std::vector<Part> parts_of(const std::string& path) {
   std::vector<Part> parts;
   std::size_t at = 0;
@@ -48,7 +48,7 @@ std::vector<Part> parts_of(const std::string& path) {
   return parts;
 }
 
-/// The node that holds the last part of a path, or the error in the path.
+/// The node that contains the last part of a path, or the error in the path.
 struct Place {
   toml::node* parent = nullptr;  // an array that has the last index, or a table
   std::string wrong{};
@@ -92,7 +92,7 @@ Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) 
   return {nullptr, "not a path"};
 }
 
-/// Groups of keys of which a scenario has at most one.
+/// Returns groups of keys of which a scenario may have at most one.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& exclusive_keys() {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> all{
       {run_table, {run_keys().steps.name, run_keys().t_end.name}},
@@ -114,8 +114,8 @@ bool touched(const toml::node& node) {
 
 namespace {
 
-/// Whether a text is a decimal with digits on both sides of a point and optionally an exponent. TOML reads it as the
-/// same number.
+/// Returns whether a text is a decimal with digits on both sides of a point and optionally an exponent. TOML reads it
+/// as the same number.
 bool is_plain_decimal(const std::string& text) {
   std::size_t at = text.starts_with('-') ? 1 : 0;
   const auto digits = [&] {
@@ -139,7 +139,7 @@ bool is_plain_decimal(const std::string& text) {
 
 toml::table parsed_value(const std::string& text) {
   toml::table value;
-  if (is_plain_decimal(text)) {  // e.g. the numbers of a range; the parser would take ten times as long
+  if (is_plain_decimal(text)) {  // for example the numbers of a range; the parser would take ten times as long
     const double number = std::strtod(text.c_str(), nullptr);
     if (std::isfinite(number)) {
       value.insert_or_assign("value", number);

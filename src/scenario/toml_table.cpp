@@ -22,7 +22,7 @@ std::string shown(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     constexpr std::size_t most = 60;
     const std::string& value = text->get();
-    // A whole number beyond 64 bits is not TOML, so --set reads it as a text.
+    // A whole number beyond 64 bits is not valid TOML, so --set reads it as a text.
     std::int64_t whole = 0;
     const char* const end = value.data() + value.size();
     const auto [behind, error] = std::from_chars(value.data(), end, whole);
@@ -49,7 +49,7 @@ std::string shown(const toml::node& node) {
   return out.str();
 }
 
-/// The place of a node in the file; no place if a part of it was set from outside.
+/// Returns the position of a node in the file; no position if a part of it was set from outside.
 toml::source_region place_of(const toml::node& node) { return touched(node) ? toml::source_region{} : node.source(); }
 }  // namespace
 
@@ -84,7 +84,7 @@ void TomlTable::complain_at(const toml::source_region& where, const std::string&
 void TomlTable::complain(const std::string& key, const std::string& message) {
   if (has(key)) {
     complain_at(place_of(*table_->get(key)), key, message);
-  } else if (table_ != nullptr) {  // a place without a line means --set
+  } else if (table_ != nullptr) {  // a position without a line means --set
     complain_at(table_->source(), key, message);
   } else {
     complaints_->push_back({file_, 1, 1, full(key), message});
@@ -92,7 +92,7 @@ void TomlTable::complain(const std::string& key, const std::string& message) {
 }
 
 void TomlTable::complain_in(const std::string& part, const std::string& message) {
-  // The place of the value, or of the nearest enclosing value that exists.
+  // Finds the position of the value, or of the nearest enclosing value that exists.
   std::string there = part;
   std::optional<toml::source_region> where;
   while (table_ != nullptr && !where && !there.empty()) {
@@ -100,7 +100,7 @@ void TomlTable::complain_in(const std::string& part, const std::string& message)
     const std::size_t last = there.find_last_of(".[");
     there = last == std::string::npos ? "" : there.substr(0, last);
   }
-  if (where) {  // a place without a line means --set
+  if (where) {  // a position without a line means --set
     complain_at(*where, part, message);
   } else {
     complain(part, message);
@@ -211,7 +211,7 @@ std::optional<bool> TomlTable::yes_no(const OptionInfo& option) {
 
 std::optional<std::string> TomlTable::number_text(const toml::node& node, const OptionInfo& option,
                                                   const Allowed& allowed) {
-  // Complains at the node itself, because an entry of an array has its own place.
+  // Complains at the node itself, because an entry of an array has its own position.
   const auto refuse = [&](const std::string& message) {
     complain_at(node.source(), option.name, message);
     return std::nullopt;
@@ -226,7 +226,7 @@ std::optional<std::string> TomlTable::number_text(const toml::node& node, const 
     OptionInfo one = option;
     if (in_array) one.type = OptionType::number;
     if (refused_value(one, word->get()).empty()) return word->get();
-    // The error of a wrong formula says where in the text it is.
+    // The error message of a wrong formula gives the position in the text.
     const bool meant_as_word = !option.words.empty() && word->get().find_first_of("0123456789") == std::string::npos;
     if (meant_as_word) return refuse(found() + allowed() + suggestion(word->get(), option.words));
     try {
@@ -284,7 +284,7 @@ std::optional<std::string> TomlTable::word_text(const toml::node& node, const Op
     complain(option.name, "found " + shown(node) + allowed());
     return std::nullopt;
   }
-  if (const auto* whole = node.as_integer()) {  // dimension = 3
+  if (const auto* whole = node.as_integer()) {  // as in dimension = 3
     const std::string digits = std::to_string(whole->get());
     if (std::find(option.words.begin(), option.words.end(), digits) != option.words.end()) return digits;
   }
@@ -356,14 +356,14 @@ void TomlTable::finish(const ProblemEntry* problem, const std::string& method) {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    if (!std::exchange(is_distinct, true)) {  // made only for a complaint, since a sweep reads very many scenarios
+    if (!std::exchange(is_distinct, true)) {  // done only for a complaint, because a sweep reads very many scenarios
       std::vector<std::string> distinct;
       for (const std::string& known : known_) {
         if (std::find(distinct.begin(), distinct.end(), known) == distinct.end()) distinct.push_back(known);
       }
       known_ = distinct;
     }
-    // A value that was set from outside has no place in the file, even if its key has.
+    // A value that was set from outside has no position in the file, even if its key has.
     const bool in_file = key.source().begin.line > 0 && !hamflow::is_set(node);
     const toml::source_region& where = in_file ? key.source() : node.source();
     if (const std::string advice = removed_key(full(name)); !advice.empty()) {

@@ -1,4 +1,4 @@
-// Typed access to a TOML table that collects complaints instead of stopping at the first.
+// Typed access to a TOML table that collects complaints instead of stopping at the first one.
 #pragma once
 
 #include <toml++/toml.h>
@@ -17,49 +17,49 @@ namespace hamflow {
 
 class TomlTable {
  public:
-  /// @param table may be null: then every key is missing   @param path dotted, empty for the root
+  /// @param table may be null; then every key is missing   @param path dotted path, empty for the root
   TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints);
 
   bool exists() const { return table_ != nullptr; }
-  /// The table itself; an empty one if there is none.
+  /// Returns the table itself, or an empty one if there is none.
   const toml::table& node() const;
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
 
-  /// Whether there is a value other than an empty list.
+  /// Returns whether there is a value other than an empty list.
   bool has_any(const std::string& key) const;
 
   // Each access makes the key known; finish() complains about the others. A value that the option does not accept
   // causes a complaint and is then treated as missing. A missing required value causes a complaint, too.
-  /// The value as the text of the option: "0.1", "[1, 2]", "auto", "true".
-  /// @param behind appended to the allowed values in messages: e.g. " (the mass)"
+  /// Returns the value as text: "0.1", "[1, 2]", "auto", "true".
+  /// @param behind appended to the allowed values in messages, for example " (the mass)"
   std::optional<std::string> text(const OptionInfo& option, const std::string& behind = "");
   std::optional<double> number(const OptionInfo& option);
   std::optional<std::int64_t> whole(const OptionInfo& option);
-  /// The entries of a list of numbers.
+  /// Returns the entries of a list of numbers.
   std::optional<std::vector<std::string>> numbers(const OptionInfo& option);
-  /// The entries of a list of words; a single string counts as a list of one.
+  /// Returns the entries of a list of words; a single string counts as a list of one.
   std::optional<std::vector<std::string>> words(const OptionInfo& option);
   std::optional<bool> yes_no(const OptionInfo& option);
-  /// An array of `count` tables; 0: of any number.
+  /// Returns the tables of an array with `count` entries; 0: any number.
   std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
   TomlTable table(const std::string& key);
-  /// The keys of the table, in the order of the file.
+  /// Returns the keys of the table, in the order of the file.
   std::vector<std::string> keys() const;
-  /// The keys that no access has made known.
+  /// Returns the keys that no access has made known.
   std::vector<std::string> unknown_keys() const;
-  /// The entries of a list of free texts; none is empty.
+  /// Returns the entries of a list of free texts, none of which is empty.
   std::optional<std::vector<std::string>> texts(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
   bool knows(const std::string& key) const { return std::find(known_.begin(), known_.end(), key) != known_.end(); }
   void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
-  /// Whether the value came from the command line and not from the file.
+  /// Returns whether the value came from the command line instead of the file.
   bool is_set(const std::string& key) const;
 
   /// Complains about every key that no access has made known, and names the nearest known one.
   /// @param problem,method if they are known, only keys that other tables have with them are suggested
   void finish(const ProblemEntry* problem = nullptr, const std::string& method = "");
 
-  /// The text of a string; nullopt, without a complaint, if the value is not a string.
+  /// Returns the text of a string; nullopt, without a complaint, if the value is not a string.
   std::optional<std::string> plain_string(const std::string& key);
   void missing(const std::string& key, const std::string& allowed);
   /// Complains at the value of the key, or at the table if the key is missing. If a part of it was set from outside,
@@ -71,7 +71,8 @@ class TomlTable {
   std::string found(const std::string& key) const;
 
  private:
-  /// Makes "; allowed ..." only for a complaint, since a sweep reads hundreds of thousands of scenarios.
+  /// Makes "; allowed ...". It is called only for a complaint, because a sweep reads hundreds of thousands of
+  /// scenarios.
   using Allowed = std::function<std::string()>;
 
   const toml::node* find(const std::string& key);

@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// The keys in the order of the file, followed by new ones.
+/// Returns the keys in the order of the file, followed by new ones.
 std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table) {
   std::vector<std::pair<toml::source_position, std::pair<std::string, const toml::node*>>> placed;
   for (const auto& [key, node] : table) {
@@ -51,7 +51,7 @@ std::string key_text(const std::string& key) {
   return bare ? key : quoted(key);
 }
 
-/// A value on one line. The printer of toml++ would write 0.1 as 0.10000000000000001.
+/// Writes a value on one line. The printer of toml++ would write 0.1 as 0.10000000000000001.
 std::string value_text(const toml::node& node) {
   std::string text;
   if (const auto* table = node.as_table()) {

@@ -1,4 +1,4 @@
-// Notes about keys of a scenario that a comparison, a reversal or a session does not use.
+// Notes on keys of a scenario that a comparison, a reversal or a session does not use.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// Notes on unused measurements, such as "run.section is not used: WHY"; empty if all are used.
+/// Returns notes on unused measurements, such as "run.section is not used: WHY"; empty if all are used.
 std::vector<std::string> unused_measures(const Scenario& scenario, const std::string& why);
 /// The same for output.figures.
 std::vector<std::string> unused_figures(const Scenario& scenario, const std::string& why);

@@ -16,7 +16,7 @@ namespace {
 toml::table table_of(const Value::Table& from, int depth);
 toml::array list_of(const Value::List& from, int depth);
 
-/// Calls put with the value as a TOML value.
+/// Calls `put` with the value as a TOML value.
 template <class Put>
 void give(const Value& value, int depth, const Put& put) {
   if (depth > most_nested_brackets) throw Error("the scenario has lists or tables that are nested too deeply");

@@ -1,4 +1,4 @@
-// Checks whether a method works with walls, also for code that uses another method than the scenario's.
+// Checks whether a method works with walls. Code that uses another method than the scenario's calls this, too.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace hamflow {
 
-/// Why the walls of a request do not work with its method and arithmetic, and what is allowed; empty if they do, or if
-/// there are no walls.
+/// Explains why the walls of a request do not work with its method and arithmetic, and what is allowed; empty if they
+/// do, or if there are no walls.
 std::string refused_by_walls(const Request& request, const ProblemEntry& problem, const std::vector<double>& start_q);
-/// "event", ...; empty without walls.
+/// Returns "event" or another rule; empty without walls.
 std::string rule_of_walls(const Request& request);
 
 }  // namespace hamflow

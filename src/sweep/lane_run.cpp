@@ -37,7 +37,7 @@ void LaneRun::advance(std::int64_t steps) {
   }
 }
 
-/// Where the block adds by itself, observers that need sums alone have seen the start, and nothing more.
+/// If the block sums observables itself, observers that only need sums have seen the start and are not called again.
 void LaneRun::spare_summed_steps() {
   std::vector<std::span<const NamedExpression>> summed;
   for (const LaneObservers& observers : observers_) {
@@ -86,7 +86,7 @@ void LaneRun::call_due_observers() {
   due_ = next_due();
 }
 
-/// Once the vectors of one lane are wanted, those of all lanes are carried to where theirs will be wanted.
+/// When the vectors of one lane are due, those of all lanes are advanced to their next observations.
 void LaneRun::carry_tangents() {
   for (std::size_t kind = 0; kind < go_in_lanes_.size(); ++kind) {
     if (!go_in_lanes_[kind]) continue;
@@ -102,7 +102,7 @@ void LaneRun::carry_tangents() {
     }
     if (!wanted) continue;
     block_.carry(jobs_);
-    for (const LaneTangents& job : jobs_) {  // what could not be carried is left to the watch itself
+    for (const LaneTangents& job : jobs_) {  // the watch itself advances the vectors that were not carried
       if (job.carried) observers_[job.lane].tangents[kind]->set_carried();
     }
   }
@@ -133,7 +133,8 @@ void LaneRun::look_for_sections() {
     if (search.is_long() || hides) {
       block_.show(lane, frame_);
       search.locate_all(block_.before_step(lane), before, frame_, now);
-    } else if (search.crosses(before, now) || std::isnan(before) != std::isnan(now)) {  // as SectionFinder has it
+      // the same condition as in SectionFinder
+    } else if (search.crosses(before, now) || std::isnan(before) != std::isnan(now)) {
       search.locate(block_.before_step(lane), before, now);
     }
   }

@@ -1,5 +1,5 @@
-// The members of a block on their way, with what observes them. They go together, from one step at which an observer of
-// any of them is due to the next; what is seen has the bits of single runs.
+// Advances the members of a block together with their observers, from one step at which any observer is due to the
+// next. Observers see the same bits as in single runs.
 #pragma once
 
 #include <optional>
@@ -12,20 +12,21 @@
 
 namespace hamflow {
 
-/// What observes the member of one lane.
+/// Observers of the member in one lane.
 struct LaneObservers {
   std::vector<Observer*> all{};
-  std::vector<TangentWatch*> tangents{};  // those of them that follow tangent vectors
+  std::vector<TangentWatch*> tangents{};  // those of `all` that carry tangent vectors
   SectionSearch* section = nullptr;
-  SummedSteps* sums = nullptr;  // that of them which sums can spare the steps
+  SummedSteps* sums = nullptr;  // the one of `all` that can take sums in place of steps
 };
 
 class LaneRun {
  public:
-  /// @param block loaded   @param observers of the lanes with members, equally many of each kind; empty: of none
+  /// @param block loaded with members   @param observers one for each lane with a member, each with the same number of
+  /// every kind; empty: there are none
   LaneRun(EnsembleBlock& block, std::vector<LaneObservers> observers);
   void advance(std::int64_t steps);
-  /// What was summed of the steps so far goes to the observers that were spared them.
+  /// Passes the sums over the steps so far to the observers that were not called at them.
   void take_sums();
   std::int64_t taken() const { return taken_; }
 
@@ -39,11 +40,11 @@ class LaneRun {
 
   EnsembleBlock& block_;
   std::vector<LaneObservers> observers_;
-  std::vector<bool> go_in_lanes_;  // of each kind of tangent vectors
+  std::vector<bool> go_in_lanes_;  // for each kind of tangent vectors
   std::vector<LaneTangents> jobs_;
   bool has_sections_;
-  bool has_sums_ = false;          // the block adds
-  std::vector<double> distances_;  // x - value of each lane's section, at the last step
+  bool has_sums_ = false;          // the block sums observables
+  std::vector<double> distances_;  // x - value for the section of each lane, at the last step
   std::int64_t taken_ = 0;
   std::int64_t due_ = 0;
   Frame frame_;

@@ -70,7 +70,7 @@ std::vector<UnitedName> SweepNames::united(const NamesOf& names_of) const {
 }
 
 SweepNames::Clash SweepNames::unite() {
-  // Threads have met the kinds in any order: that of their first members decides.
+  // Threads meet the kinds in any order, so kinds are sorted by their first members.
   std::vector<std::uint32_t> order(kinds_.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [this](auto a, auto b) { return kinds_[a].first < kinds_[b].first; });

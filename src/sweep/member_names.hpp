@@ -1,5 +1,5 @@
-// What the numbers in the rows of a sweep's members are called. Members can differ in their walls, containers,
-// invariants and events: the table has every name that one of them has, and a number never stands under another's name.
+// Names of the numbers in the rows of a sweep's members. Members may differ in their walls, containers, invariants and
+// events. The table has every name that any member has, and a number is never listed under another name.
 #pragma once
 
 #include <cstdint>
@@ -12,39 +12,39 @@
 
 namespace hamflow {
 
-/// The names of one member, each list in the order of the numbers in its row (MemberRow).
+/// Names of one member. Each list has the order of the numbers in its row (MemberRow).
 struct MemberNames {
-  /// @param columns further ones, those of MemberRow::observables
+  /// @param columns names of MemberRow::observables
   MemberNames(const Scenario& scenario, std::vector<std::string> columns);
 
   std::vector<InvariantInfo> invariants;
-  std::vector<std::size_t> sizes;  // how many numbers each invariant is
-  std::vector<std::string> walls;  // one for each wall; several may have the same
+  std::vector<std::size_t> sizes;  // number of components of each invariant
+  std::vector<std::string> walls;  // one for each wall; several walls may have the same name
   std::vector<std::string> events;
-  bool stops = false;  // one of the events ends the run
+  bool stops = false;  // one of the events can end the run
   std::vector<std::string> observables;
   StateNames state;
 
-  /// Two are the same when these are.
+  /// Names with equal keys are equal.
   std::string key() const;
 };
 
-/// A name that some members have, and its places in the lists of each kind of members: none where a kind does not have
-/// it, several where walls are counted together.
+/// A name that some members have, and its places in the lists of each kind of members. A kind without the name has no
+/// place; several walls that are counted together have several.
 struct UnitedName {
   std::string name;
   std::vector<std::vector<std::size_t>> places;
 };
 
-/// The names of all members: of each kind of members once.
+/// The names of all members, stored once for each kind of members.
 class SweepNames {
  public:
   explicit SweepNames(std::size_t members = 0) : kind_of_(members) {}
-  /// In any order, each member once.
-  /// @param key of names
+  /// Members may come in any order, but each only once.
+  /// @param key key() of names
   void add(std::size_t member, const MemberNames& names, const std::string& key);
-  /// Once all are there. What cannot be columns of one table is returned: an invariant with two numbers of components,
-  /// and one member of each. Else the name is empty.
+  /// Call this after all members were added. Returns an invariant that cannot be in one table because members disagree
+  /// on its number of components, with two such members; otherwise the name is empty.
   struct Clash {
     std::string name;
     std::size_t sizes[2] = {};
@@ -53,16 +53,16 @@ class SweepNames {
   Clash unite();
 
   const MemberNames& of(std::size_t member) const { return kinds_[kind_of_[member]].names; }
-  /// Of all members, in the order in which these have them.
+  /// Names of all members, in the order in which the members have them.
   const std::vector<UnitedName>& invariants() const { return invariants_; }
   const std::vector<UnitedName>& walls() const { return walls_; }
   const std::vector<UnitedName>& events() const { return events_; }
   const std::vector<UnitedName>& observables() const { return observables_; }
-  /// How many numbers an invariant of all is.
+  /// Returns the number of components of an invariant.
   std::size_t size(const UnitedName& invariant) const;
-  /// Whether an event can end the run of a member.
+  /// Returns whether an event can end the run of any member.
   bool stop() const;
-  /// Coordinates and momenta; q1, p1 and so on where members call them otherwise.
+  /// Names of coordinates and momenta; q1, p1, ... if members disagree.
   const StateNames& state() const { return state_; }
   bool have_same_state() const { return same_state_; }
   const std::vector<std::size_t>& places(const UnitedName& name, std::size_t member) const {
@@ -72,14 +72,14 @@ class SweepNames {
  private:
   struct Kind {
     MemberNames names;
-    std::size_t first;  // of its members
+    std::size_t first;  // index of its first member
   };
   template <class NamesOf>
   std::vector<UnitedName> united(const NamesOf& names_of) const;
   Clash clash() const;
 
   std::vector<Kind> kinds_;
-  std::vector<std::uint32_t> kind_of_;  // each member
+  std::vector<std::uint32_t> kind_of_;  // kind of each member
   std::map<std::string, std::uint32_t> known_;
   std::vector<UnitedName> invariants_, walls_, events_, observables_;
   StateNames state_;

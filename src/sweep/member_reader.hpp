@@ -1,4 +1,4 @@
-// The scenarios of a sweep's members, one after the other, read from one parsed text.
+// Reads the scenarios of a sweep's members one after the other, from one parsed text.
 #pragma once
 
 #include <limits>
@@ -15,7 +15,7 @@ namespace hamflow {
 
 class MemberReader {
  public:
-  /// @param varied has to live as long
+  /// @param varied has to outlive the reader
   MemberReader(const Varied& varied, const std::string& text, const std::string& name,
                const std::vector<std::string>& sets)
       : varied_(varied), paths_(varied.paths()), family_(text, name, sets) {}
@@ -26,7 +26,7 @@ class MemberReader {
     for (std::size_t key = 0; key < varied_.size(); ++key) {
       if (std::string why = varied_.without_start(member, key); !why.empty()) {
         no_start = std::move(why);
-        if (!placeholder_) placeholder_ = family_.add_value("1");  // for what is not there
+        if (!placeholder_) placeholder_ = family_.add_value("1");  // stands for a value that does not exist
         values.push_back(*placeholder_);
       } else {
         values.push_back(value_of(member, key));
@@ -40,7 +40,7 @@ class MemberReader {
   const ScenarioFamily& family() const { return family_; }
 
  private:
-  /// The member has everything but a start.
+  /// Marks a member as complete except for its start.
   static void without_start(Reading& reading, const std::string& why) {
     reading.no_start = why;
     if (reading.scenario) reading.startless = std::exchange(reading.scenario, std::nullopt);
@@ -48,8 +48,8 @@ class MemberReader {
     reading.startless->start_q.assign(reading.startless->start_q.size(), std::numeric_limits<double>::quiet_NaN());
     reading.startless->start_p = reading.startless->start_q;
   }
-  /// Values of a list that several members have are parsed once. Those of a formula, and of a list that is as long as
-  /// the sweep, are parsed for each member: a million parsed values would take 300 MB.
+  /// A value of a list is parsed once if several members have it. Values of a formula, and of a list as long as the
+  /// sweep, are parsed for each member: a million parsed values would take 300 MB.
   std::size_t value_of(std::size_t member, std::size_t key) {
     const Vary& vary = varied_.keys()[key];
     const bool is_shared = vary.formula.empty() && vary.texts.size() < varied_.members();

@@ -18,7 +18,7 @@ namespace {
 std::optional<std::uint64_t> number_in_file(const char* file) {
   std::ifstream in(file);
   std::uint64_t number = 0;
-  return in >> number ? std::optional(number) : std::nullopt;  // "max" is no number: no limit
+  return in >> number ? std::optional(number) : std::nullopt;  // "max" means that there is no limit
 }
 
 std::optional<std::uint64_t> free_on_the_machine() {
@@ -51,7 +51,7 @@ std::uint64_t available_memory() {
 }
 
 std::uint64_t memory_of_member(std::size_t coordinates) {
-  // Start and row hold q and p each, the table twice again; some ten vectors have headers of their own, and some
+  // Start and row hold q and p each, and the table holds both twice. About ten vectors have a header each, and about
   // thirty columns are single numbers.
   constexpr std::uint64_t of_vector = 48;
   return sizeof(MemberRow) + sizeof(MemberStart) + 10 * of_vector + 8 * (6 * std::uint64_t{coordinates} + 30);

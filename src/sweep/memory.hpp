@@ -6,14 +6,14 @@
 
 namespace hamflow {
 
-/// Bytes that this process can still take: the least of what the machine has free, its control group and its limit of
-/// address space leave. The largest number there is where none of them is known.
+/// Returns the bytes that this process can still allocate: the smallest of the free memory of the machine and of what
+/// its control group and its address space limit leave. Returns the largest number if none of them is known.
 std::uint64_t available_memory();
 
-/// Bytes of a member's start, row, and columns of the table, for that many coordinates.
+/// Returns the bytes of a member's start, row and table columns, for a number of coordinates.
 std::uint64_t memory_of_member(std::size_t coordinates);
 
-/// Empty if so many members fit, else "found ...; allowed ...".
+/// Returns an empty text if this many members fit into the memory, otherwise "found ...; allowed ...".
 std::string refused_members(std::size_t members, std::size_t coordinates, std::uint64_t available);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// The same work on several threads.
+// Runs the same work on several threads.
 #pragma once
 
 #include <exception>
@@ -10,8 +10,8 @@
 
 namespace hamflow {
 
-/// An exception of a thread is passed on to the caller. Where the system starts fewer threads, these do the work: it
-/// has the same bits.   @return the number of threads, the caller included
+/// Passes an exception of a thread on to the caller. If the system starts fewer threads, these do all the work, with
+/// the same bits.   @return number of threads, including the caller's
 template <class Work>
 int on_threads(int threads, const Work& work) {
   std::exception_ptr trouble;

@@ -42,8 +42,8 @@ void Sweep::put(std::size_t member, MemberRow row) {
   finished_(member);
 }
 
-/// Calls the caller's pulse, at most every 20 ms, on the thread of the caller alone: what it throws reaches him, and
-/// there need be no second thread.
+/// Calls the caller's pulse, at most every 20 ms and only on the caller's thread. So its exceptions reach the caller,
+/// and no second thread is needed.
 class Sweep::Pulse {
  public:
   Pulse(Sweep& sweep, const std::function<bool(std::int64_t)>& pulse) : sweep_(sweep), pulse_(pulse) {}
@@ -75,7 +75,7 @@ class Sweep::Worker {
       run_alone(task.group->members[task.first]);
     } else {
       run_in_lanes(task);
-      // Members that differ in what a block has in common, such as the position of a wall, are groups of their own.
+      // Members that differ in what a block shares, such as the position of a wall, form different groups.
       if (task.count == task.group->members.size()) blocks_.erase(task.group);
     }
   }
@@ -83,7 +83,7 @@ class Sweep::Worker {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// A member in a lane, with what observes it.
+  /// A member in a lane, with its observers.
   struct Watched {
     Scenario scenario;
     MemberRow row{};
@@ -137,7 +137,7 @@ class Sweep::Worker {
     }
     return all;
   }
-  /// What takes the points of a member's section.
+  /// Returns a function that stores the points of a member's section in its row.
   static std::function<void(const SectionPoint&)> points_of(MemberRow& row) {
     return [&row](const SectionPoint& point) {
       row.section.push_back(point.time);
@@ -155,9 +155,9 @@ class Sweep::Worker {
     row.section_message = search.message();
   }
 
-  /// @param taken of all steps: fewer where the sweep was stopped
+  /// @param taken number of steps taken; less than `steps` if the sweep was stopped
   void finish_lane(std::size_t member, MemberEnd end, std::int64_t taken, std::int64_t steps, Watched& watched) {
-    if (!end.regular) {  // the single run shows what happened, and when
+    if (!end.regular) {  // a single run finds out what happened, and when
       if (taken == steps) run_alone(member);
       return;
     }
@@ -179,7 +179,7 @@ class Sweep::Worker {
     sweep_.put(member, std::move(row));
   }
 
-  /// A run whose steps are counted and which Ctrl-C ends.
+  /// Runs a simulation, counts its steps, and stops it after Ctrl-C.
   Outcome go(Simulation& simulation, std::int64_t steps, std::span<Observer* const> observers) {
     std::int64_t counted = 0;
     const auto count = [&](std::int64_t step) {
@@ -212,7 +212,7 @@ class Sweep::Worker {
     }
     Outcome outcome = go(*simulation, scenario.steps, observers);
     if (watch) row.stopped_by = watch->stopped_by();
-    if (outcome == Outcome::stopped && row.stopped_by) outcome = Outcome::done;  // by its own will
+    if (outcome == Outcome::stopped && row.stopped_by) outcome = Outcome::done;  // one of its events stopped the run
     if (finder) take_section(finder->search(), row);
     Frame frame;
     simulation->look(frame);
@@ -234,13 +234,13 @@ class Sweep::Worker {
     row.message =
         outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : cause_of(simulation->failure());
     if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);
-    // Of a run without a step, too, all is told that the start shows, as of the single run.
+    // Without a step, too, a member reports what its start shows, like a single run.
     if (watch && (frame.step > 0 || outcome != Outcome::stopped)) row.observables = watch->row();
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
     sweep_.put(member, std::move(row));
   }
 
-  /// What a map keeps is no energy, and has no scale.
+  /// A map conserves a quantity that is not an energy and has no scale.
   static Excursion energy_of(Excursion energy, const Scenario& scenario) {
     if (scenario.map) energy.scale_at_start = std::numeric_limits<double>::quiet_NaN();
     return energy;
@@ -256,7 +256,7 @@ class Sweep::Worker {
     return !sweep_.stop_;
   }
 
-  /// Read anew: 10^5 scenarios at once would fill the memory.
+  /// Reads the scenario again, because 10^5 scenarios at once would fill the memory.
   Scenario scenario_of(std::size_t member) {
     if (!reader_) reader_.emplace(sweep_.varied_, sweep_.raw_text_, sweep_.name_, sweep_.sets_);
     Reading reading = reader_->read(member);
@@ -281,14 +281,14 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::funct
       tasks.push_back({&group, i, std::min(at_once, group.members.size() - i)});
     }
   }
-  // The longest first, so that no thread is left with one at the end.
+  // The longest tasks come first, so that at the end no thread is left with a long one.
   std::stable_sort(tasks.begin(), tasks.end(),
                    [](const Task& a, const Task& b) { return a.group->steps > b.group->steps; });
   std::atomic<std::size_t> next{0};
   Pulse asked(*this, pulse);
   std::mutex mutex;
   std::condition_variable one_is_done;
-  int others = 0;  // threads at work beside the caller's
+  int others = 0;  // working threads, without the caller's
   const auto take_tasks = [&](Pulse* own) {
     Worker worker(*this, own);
     for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) {
@@ -320,7 +320,7 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::funct
         throw;
       }
       end();
-    } catch (...) {  // no thread works for a sweep that is lost
+    } catch (...) {  // after a failure all threads stop
       stop_ = true;
       throw;
     }

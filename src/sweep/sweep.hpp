@@ -1,5 +1,5 @@
-// A sweep runs every member of a family of scenarios on all cores, and in SIMD lanes if problem and method allow it.
-// The results are bit for bit those of single runs, for any lanes and any number of threads.
+// Runs every member of a family of scenarios on all cores, and in SIMD lanes if problem and method allow it. The
+// results are bit for bit those of single runs, for any lanes and any number of threads.
 #pragma once
 
 #include <atomic>
@@ -25,78 +25,81 @@
 
 namespace hamflow {
 
-/// The event that ended a member's run.
+/// The event that ended a member's run, and the state there.
 struct MemberStop {
-  std::size_t event = 0;  // of the member's
+  std::size_t event = 0;  // index in the list of the member's events
   double t = 0;
   std::vector<double> q;
   std::vector<double> p;
-  FrameDigits digits{};  // the same in arithmetic beyond double
+  FrameDigits digits{};  // the state with all digits, in arithmetic beyond double
 };
 
-/// The result of a member; for a failed one its last good state. SweepNames has the names of the entries of its lists.
+/// The result of a member. A failed member has its last good state. SweepNames has the names of the entries of the
+/// lists.
 struct MemberRow {
   Outcome status = Outcome::not_run;
-  bool no_start = false;  // no start has the requested energy, or a formula has no value, so it cannot be run
+  // the member cannot be run, because no start has the requested energy or a formula has no value
+  bool no_start = false;
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;
   std::vector<double> p;
-  FrameDigits digits;  // the same with all digits, in arithmetic beyond double
-  Excursion energy;    // of a map its scale is no number
+  FrameDigits digits;  // the state with all digits, in arithmetic beyond double
+  Excursion energy;    // the scale is NaN for a map
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
   std::vector<WallCount> walls;
-  std::vector<std::int64_t> events;         // how often each of the member's was met
-  std::vector<std::string> event_notes;     // what there is to say of those counts
-  std::optional<MemberStop> stopped_by;     // done before its last step
-  std::int64_t halved = 0;                  // steps
-  std::vector<double> section;              // of each point of the section t, q, p
-  std::vector<std::string> section_digits;  // the same in arithmetic beyond double
-  double section_residual = 0;              // the largest
+  std::vector<std::int64_t> events;         // how often each event of the member occurred
+  std::vector<std::string> event_notes;     // remarks on these counts
+  std::optional<MemberStop> stopped_by;     // the event that ended the run before its last step
+  std::int64_t halved = 0;                  // number of halved steps
+  std::vector<double> section;              // t, q and p of each point of the section
+  std::vector<std::string> section_digits;  // the same with all digits, in arithmetic beyond double
+  double section_residual = 0;              // largest residual of the points
   std::string section_message;              // why points may be missing
-  std::string message;                      // of a failure, and why there is no start
-  bool nonsense = false;                    // done, but the energy error is so large that the result is meaningless
+  std::string message;                      // explains a failure, or why there is no start
+  // the run finished, but its energy error is so large that the result is meaningless
+  bool nonsense = false;
 
-  /// As it is called in files.
+  /// Name of the status in files.
   std::string status_name() const { return no_start ? "no_start" : std::string(name(status)); }
   std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
   /// Whether the member is finished.
   bool is_finished() const { return no_start || (status != Outcome::not_run && status != Outcome::stopped); }
-  /// All of it, for what a sweep goes on from (detail/core/archive.hpp).
+  /// Archives the whole row for the checkpoint of a sweep (detail/core/archive.hpp).
   template <class Archive>
   void archive(Archive& ar);
 };
 
-/// Observes one member: alone or in a lane, where frames hold step, time, q and p and nothing else.
+/// Observes one member, alone or in a lane. In a lane, frames only contain step, time, q and p.
 class MemberWatch {
  public:
   virtual ~MemberWatch() = default;
   virtual std::vector<Observer*> observers() = 0;
-  /// Those of them that follow tangent vectors.
+  /// Those observers that carry tangent vectors.
   virtual std::vector<TangentWatch*> tangents() { return {}; }
-  /// The one of them that needs sums over the steps alone.
+  /// The observer that only needs sums over the steps; null if there is none.
   virtual SummedSteps* sums() { return nullptr; }
-  /// What was seen of a run that is done: a number for each of MemberObservables::names.
+  /// The results of a finished run: a number for each of MemberObservables::names.
   virtual std::vector<double> row() const = 0;
-  /// How often each event of the scenario was met, and which of them has ended the run.
+  /// How often each event of the scenario occurred, and which one ended the run.
   virtual std::vector<std::int64_t> events() const { return {}; }
   virtual std::vector<std::string> event_notes() const { return {}; }
   virtual std::optional<MemberStop> stopped_by() const { return {}; }
 };
 
-/// Carries tangent vectors to where a run has ended: an event or a failure comes before they are due.
+/// Advances tangent vectors to the end of a run, because an event or a failure may come before their next observation.
 inline void carry_to_the_end(std::span<TangentWatch* const> watches, const Frame& end) {
   for (TangentWatch* watch : watches) {
     if (watch->followed() && watch->step() < end.step) (void)watch->observe(end);
   }
 }
 
-/// Further columns, e.g. an exponent: what is seen beside the run of a member.
+/// Further columns that are measured during the run of a member, such as an exponent.
 struct MemberObservables {
   std::vector<std::string> names;
-  /// None: nothing is seen.   @param alone the member's simulation where it runs alone; null in a lane. Both, and the
-  /// scenario, outlive the watch.
+  /// Makes the observers of a member; empty: nothing is measured.   @param alone simulation of a member that runs
+  /// alone; null in a lane. It and the scenario outlive the watch.
   std::function<std::unique_ptr<MemberWatch>(const Scenario&, const Simulation* alone)> watch;
 };
 
@@ -104,9 +107,9 @@ struct SweepOptions {
   SweepShard shard{};
   int threads = 0;  // 0: all cores
   LaneSet lanes = LaneSet::none;
-  /// Of a member; called by several threads.
+  /// Returns the further columns of a member. Several threads call it.
   std::function<MemberObservables(const Scenario&)> observables_of{};
-  /// Asked of members that are done with an energy error above their scale.
+  /// Asked for finished members whose energy error is larger than their scale.
   std::function<bool(const Scenario&, const MemberRow&)> is_nonsense{};
 };
 
@@ -116,39 +119,40 @@ class Sweep {
   Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets, Varied varied,
         SweepOptions options);
 
-  /// One line each, at most ten.
+  /// Error messages, one line each, at most ten.
   const std::vector<Complaint>& complaints() const { return complaints_; }
   std::size_t members() const { return rows_.size(); }
   const Varied& varied() const { return varied_; }
   const std::vector<MemberRow>& rows() const { return rows_; }
-  /// The scenario of the first member that has a start, for what all have in common.
+  /// The scenario of the first member that has a start; used for settings that all members share.
   const Scenario& common() const { return common_; }
   const std::string& text() const { return text_; }
-  /// Of the first member with a start; and what any member says of keys of its method, which may be varied.
+  /// Notes of the first member with a start, and notes of any member on keys of its method, because these may be
+  /// varied.
   std::vector<std::string> notes() const;
-  /// What the numbers in the rows are called.
+  /// Names of the numbers in the rows.
   const SweepNames& names() const { return names_; }
-  /// In which all members compute.
+  /// The arithmetics of the members.
   const std::set<std::string>& arithmetics() const { return arithmetics_; }
   int threads() const { return threads_; }
   LaneSet lanes() const { return in_lanes_ > 0 ? options_.lanes : LaneSet::none; }
   std::size_t lane_count() const { return lane_count_; }
-  /// Members that run in lanes.
+  /// Number of members that run in lanes.
   std::size_t members_in_lanes() const { return in_lanes_; }
-  /// Of all members.
+  /// Number of steps of all members together.
   std::int64_t total_steps() const { return total_steps_; }
   /// Whether a member has more digits than double.
   bool beyond_double() const { return beyond_double_; }
 
-  /// Whether a member's method halves steps that do not converge.
+  /// Whether a member's method halves steps after a convergence failure.
   bool halves_steps() const { return halves_steps_; }
-  /// Steps that a member is to take; 0 of one without a start.
+  /// Number of steps that a member has to take; 0 if it has no start.
   std::int64_t steps_of(std::size_t member) const { return steps_[member]; }
-  /// The row of a member that an earlier part of this sweep has finished: it is not run again.
+  /// Takes the row of a member that an earlier part of this sweep has finished. The member is not run again.
   void restore(std::size_t member, MemberRow row);
-  /// Steps of members that were restored.
+  /// Number of steps of the restored members.
   std::int64_t steps_before() const { return steps_before_; }
-  /// Whether a member is one of the shard's.
+  /// Whether a member belongs to this shard.
   bool is_own(std::size_t member) const { return member % options_.shard.count == options_.shard.index; }
   const SweepShard& shard() const { return options_.shard; }
   /// Number of members of the shard.
@@ -159,10 +163,10 @@ class Sweep {
   std::size_t members_left() const;
 
   /// Runs all members that are not finished. Rows change meanwhile; use hold_rows() to read them.
-  /// @param pulse called several times a second with the steps taken by all members; returns false to stop
-  /// @param finished called by any thread, one at a time, with a finished member; an exception ends the sweep
+  /// @param pulse called several times a second with the number of steps taken by all members; returns false to stop
+  /// @param finished called for each finished member, by any thread, one call at a time; an exception ends the sweep
   void run(const std::function<bool(std::int64_t)>& pulse, const std::function<void(std::size_t)>& finished = {});
-  /// No row changes while it is held.
+  /// Returns a lock. No row changes while it is held.
   [[nodiscard]] std::unique_lock<std::mutex> hold_rows() const { return std::unique_lock(rows_mutex_); }
 
  private:
@@ -171,8 +175,8 @@ class Sweep {
     Request request;
     ParameterShape shape;
     std::int64_t steps = 0;
-    std::size_t lanes = 0;          // 0: they run one by one
-    MemberObservables observables;  // of each of them
+    std::size_t lanes = 0;          // 0: the members run one by one
+    MemberObservables observables;  // the same for all members of the group
     bool has_section = false;
     std::vector<std::size_t> members;
   };
@@ -206,13 +210,13 @@ class Sweep {
   std::vector<std::string> sets_;
   std::string text_;
   Scenario common_;
-  std::map<std::string, std::size_t> method_notes_;  // and the first member that has it
+  std::map<std::string, std::size_t> method_notes_;  // each note, with the first member that has it
   std::size_t common_member_ = 0;
-  std::map<std::pair<std::string, std::size_t>, std::size_t> first_of_kind_;  // problem and size: its first member
-  std::optional<std::uint64_t> start_contents_;                               // of the files of all members
+  std::map<std::pair<std::string, std::size_t>, std::size_t> first_of_kind_;  // first member with this problem and size
+  std::optional<std::uint64_t> start_contents_;                               // hash of the start files of all members
   bool common_has_start_ = false;
   std::vector<Complaint> complaints_;
-  std::vector<MemberStart> starts_;  // of members in lanes
+  std::vector<MemberStart> starts_;  // starts of the members in lanes
   std::vector<MemberRow> rows_;
   std::vector<std::int64_t> steps_;
   mutable std::mutex rows_mutex_;
@@ -220,7 +224,7 @@ class Sweep {
   std::function<void(std::size_t)> finished_;
   std::map<std::string, Group> groups_;
   std::mutex mutex_;
-  std::map<Complaint, std::vector<std::size_t>> found_;  // and the members
+  std::map<Complaint, std::vector<std::size_t>> found_;  // each complaint, with its members
   int threads_ = 1;
   std::size_t in_lanes_ = 0;
   std::size_t lane_count_ = 0;

@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 
-/// With a checksum for each chunk; chunks of 64 kilobytes at most, or of one row.
+/// Makes datasets with a checksum for each chunk. A chunk has at most 64 kilobytes, or one row.
 Hdf5Handle protected_chunks(int rank, const hsize_t* size, std::size_t bytes) {
   constexpr hsize_t most_bytes = 1 << 16;
   const hsize_t width = rank > 1 ? size[1] : 1;
@@ -21,7 +21,7 @@ Hdf5Handle protected_chunks(int rank, const hsize_t* size, std::size_t bytes) {
   Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
   check_hdf5(H5Pset_chunk(plist, rank, chunk), "choose the chunks");
   check_hdf5(H5Pset_fletcher32(plist), "choose a checksum");
-  check_hdf5(H5Pset_obj_track_times(plist, false), "leave out times");  // equal sweeps leave equal files
+  check_hdf5(H5Pset_obj_track_times(plist, false), "leave out times");  // so that equal sweeps write equal files
   return plist;
 }
 
@@ -67,7 +67,7 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
   write_attribute(id, "problem", request.problem);
-  // What members do not have in common is a column of what was varied.
+  // Settings that differ between members are in the columns of the varied keys.
   if (sweep.arithmetics().size() <= 1) write_attribute(id, "arithmetic", request.arithmetic);
   write_text_dataset(id, "scenario", sweep.text());
   for (const Column& column : tables.members.columns()) write_column(id, column);
@@ -78,7 +78,7 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
 
 namespace {
 
-/// A text with commas, quotes or line ends as CSV has it.
+/// Quotes a text for CSV if it contains commas, quotes or line ends.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string all = "\"";
@@ -86,7 +86,7 @@ std::string quoted(const std::string& text) {
   return all + "\"";
 }
 
-/// Part i of row k.
+/// Returns component i of row k as text.
 std::string cell(const Column& column, std::size_t k, std::size_t i) {
   const std::size_t at = k * column.info().width + i;
   switch (column.info().type) {
@@ -99,7 +99,7 @@ std::string cell(const Column& column, std::size_t k, std::size_t i) {
   }
 }
 
-/// Each column with all its digits, where there are more than those of a double. What was varied stays a number.
+/// Returns the columns, with all digits if they have more than a double. Columns of varied keys stay numbers.
 std::vector<const Column*> columns_of_csv(const Table& table) {
   const std::string beyond_double = "digits/";
   std::vector<const Column*> all;

@@ -15,8 +15,8 @@ namespace hamflow {
 
 namespace {
 
-// The file has these words, then parts: the header, then records. A part is its length, its bytes, and the hash of
-// both.
+// The file begins with these two words. Parts follow: the header, then the records. A part consists of its length, its
+// bytes, and a hash of both.
 constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP"; it also shows the byte order
 constexpr std::uint64_t format = 4;
 constexpr std::size_t word = sizeof(std::uint64_t);
@@ -26,12 +26,13 @@ std::vector<std::byte> part_of(const T&... fields) {
   Writer content;
   content(fields...);
   Writer part;
-  part(content.bytes());  // a list of bytes begins with its length
+  part(content.bytes());  // the archive of a list of bytes begins with its length
   part(fnv1a(part.bytes()));
   return part.take();
 }
 
-/// The content of the part that begins there, which is then behind it; empty where it is not whole.
+/// Returns the content of the part at the beginning of `left`, and removes it from `left`. Empty if the part is
+/// incomplete or damaged.
 std::span<const std::byte> next_part(std::span<const std::byte>& left) {
   std::uint64_t size = 0;
   if (left.size() < 2 * word) return {};

@@ -1,6 +1,6 @@
-// members.bin, the checkpoint of a sweep: a header that identifies the sweep, then a record for each finished member,
-// appended when it finishes. After a kill, a full disk or damage the last records may be lost; their members are run
-// again.
+// members.bin, the checkpoint of a sweep. A header identifies the sweep; a record for each finished member follows,
+// appended when the member finishes. After a kill, a full disk or damage the last records may be lost; their members
+// are run again.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace hamflow {
 
 /// The header: the settings that must be the same for a sweep to be resumed.
 struct SweepHead {
-  std::string version;            // of hamflow
-  std::vector<std::string> keys;  // settings of the scenario that the members have in common
+  std::string version;            // version of hamflow
+  std::vector<std::string> keys;  // settings of the scenario that all members share
   std::vector<std::string> values;
-  std::vector<std::string> varied;  // PATH=VALUES as they were typed
+  std::vector<std::string> varied;  // PATH=VALUES as the user typed them
   bool in_step = false;
   std::uint64_t functions = 0;  // hash of elementary functions of this machine, on which bits can depend
   // The request, from which the sweep can be set up again.
@@ -33,10 +33,10 @@ struct SweepHead {
   }
 };
 
-/// A finished member.
+/// Record of a finished member.
 struct FinishedMember {
-  std::int64_t steps = 0;  // that it was to take; it took fewer where it failed or an event ended it
-  double seconds = 0;      // of the sweep until then, all its parts together
+  std::int64_t steps = 0;  // number of steps requested; fewer were taken if it failed or an event ended it
+  double seconds = 0;      // run time of the sweep until then, over all its parts
   MemberRow row;
 
   template <class Archive>
@@ -48,25 +48,25 @@ struct FinishedMember {
 struct SweepPast {
   SweepHead head;
   std::map<std::uint64_t, FinishedMember> members;
-  std::uint64_t dropped_bytes = 0;  // at the end, half written or damaged
+  std::uint64_t dropped_bytes = 0;  // bytes at the end that were incomplete or damaged
 };
 
 /// @throws FileError if it cannot be read, or its header is damaged or has another format
 SweepPast read_journal(const std::filesystem::path& file);
-/// @param name of the file, in messages   @throws FileError as read_journal does
+/// The same for bytes in memory. @param name name of the file, for messages   @throws FileError like read_journal()
 SweepPast journal_in(std::span<const std::byte> bytes, const std::string& name);
-/// The content of a journal.
+/// Returns the content of a journal.
 std::vector<std::byte> journal_bytes(const SweepPast& past);
 
 /// Appends records. After append() returns, the operating system has the record.
 class SweepJournal {
  public:
-  /// A file of its own in the place of what was there, with what is known of members.   @throws FileError
+  /// Replaces the file by a new one that contains `past`.   @throws FileError
   SweepJournal(const std::filesystem::path& file, const SweepPast& past);
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
-  /// @throws FileError if it cannot be written, e.g. because the disk is full
+  /// @throws FileError if it cannot be written, for example because the disk is full
   void append(std::uint64_t member, const FinishedMember& finished);
   /// Forces the records to the disk, so that they survive a crash of the machine.   @throws FileError
   void force() const { force_to_disk(file_); }

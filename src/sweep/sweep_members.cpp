@@ -1,4 +1,4 @@
-// The members of a sweep: read, checked, and put into groups that can share a block.
+// Reads and checks the members of a sweep, and groups those that can share a block.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -15,7 +15,7 @@
 namespace hamflow {
 
 namespace {
-/// Whether a key is another, or a part of it: problem.initial and problem.initial.q[0].
+/// Returns whether `part` is the key itself or a part of it, such as problem.initial.q[0] of problem.initial.
 bool leads_to(const std::string& key, const std::string& part) {
   return part.starts_with(key) && (part.size() == key.size() || part[key.size()] == '.' || part[key.size()] == '[');
 }
@@ -45,7 +45,7 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   common_.start_contents = start_contents_;
 }
 
-/// 0 where it cannot be read, which is told later.
+/// Returns 0 if the member cannot be read; a message follows later.
 std::size_t Sweep::coordinates_of_first(MemberReader& reader) const {
   const Reading reading = reader.read(0);
   const std::optional<Scenario>& any = reading.scenario ? reading.scenario : reading.startless;
@@ -58,12 +58,12 @@ void Sweep::read_members(const std::string& name) {
   const auto work = [&] {
     MemberReader reader(varied_, raw_text_, name, sets_);
     for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
-      if (StopQuestion::stop_requested()) {  // on the thread of the caller alone
+      if (StopQuestion::stop_requested()) {  // only true on the caller's thread
         next = rows_.size();
         throw ReadingStopped();
       }
       for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
-        if (member != 0 && !is_own(member)) continue;  // member 0 tells what all have in common
+        if (member != 0 && !is_own(member)) continue;  // member 0 shows the settings that all members share
         const Reading reading = reader.read(member);
         if (reading.scenario) {
           add(member, *reading.scenario);
@@ -85,7 +85,7 @@ void Sweep::read_members(const std::string& name) {
   unite_names();
 }
 
-/// The first member that differs from member 0, in whatever order threads have read them.
+/// Complains about the first member that differs from member 0, whatever the order in which threads read them.
 void Sweep::refuse_different_kinds() {
   if (first_of_kind_.size() < 2) return;
   std::vector<std::size_t> firsts;
@@ -100,7 +100,7 @@ MemberObservables Sweep::observables_of(const Scenario& scenario) const {
   return options_.observables_of ? options_.observables_of(scenario) : MemberObservables{};
 }
 
-/// Rows of one table have the same columns: a name that one member has, all have.
+/// Unites the names of all members, because the rows of a table have the same columns.
 void Sweep::unite_names() {
   const SweepNames::Clash clash = names_.unite();
   if (clash.name.empty()) return;
@@ -152,7 +152,8 @@ void Sweep::report(const std::map<Complaint, std::vector<std::size_t>>& found) {
   }
 }
 
-/// Members of one table are states of one problem. What else is the same of all is known of the first with a start.
+/// Members of one table are states of one problem. The other shared settings are taken from the first member with a
+/// start.
 void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
   const bool has_start = !scenario.start_p.empty() && scenario.start_p.front() == scenario.start_p.front();
   const std::pair kind(scenario.problem->info.name, scenario.start_q.size());
@@ -165,10 +166,11 @@ void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
   common_has_start_ = has_start;
 }
 
-/// What is not used: of such notes there are as many as methods and keys, however many members there are.
+/// Keeps notes on keys that are not used. Their number is bounded by the number of methods and keys, not of members.
 void Sweep::keep_notes(std::size_t member, const Scenario& scenario) {
   for (const std::string& note : scenario.notes) {
-    if (!note.starts_with("method.") && !note.starts_with("problem.")) continue;  // others tell of numbers
+    // other notes contain numbers of the member
+    if (!note.starts_with("method.") && !note.starts_with("problem.")) continue;
     const auto [at, is_new] = method_notes_.try_emplace(note, member);
     if (!is_new) at->second = std::min(at->second, member);
   }
@@ -211,12 +213,13 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   const MemberObservables observables = observables_of(scenario);
   const MemberNames names(scenario, observables.names);
   const std::string name_key = names.key();
-  key += '\n' + name_key;  // observers of a block are the same for each lane, and events are sought without lanes
+  // observers in a block have the same kinds in each lane; members with events run without lanes
+  key += '\n' + name_key;
 
   const std::lock_guard lock(mutex_);
   take_as_common(member, scenario);
   keep_notes(member, scenario);
-  if (scenario.start_contents) {  // in whatever order members are read
+  if (scenario.start_contents) {  // the order of reading must not matter
     const std::array<std::uint64_t, 2> one{member, *scenario.start_contents};
     start_contents_ = start_contents_.value_or(0) ^ fnv1a(std::as_bytes(std::span(one)));
   }
@@ -234,7 +237,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     group.observables = observables;
     group.has_section = scenario.section.has_value();
     const auto block = make_ensemble_block(request, options_.lanes);
-    // Events are sought on a simulation, and so are points of a section in steps that bounce.
+    // Events, and section points within steps that bounce, are located on a simulation of the member alone.
     const bool sought = !scenario.events.empty() || (scenario.section && has_hard_walls(request));
     const bool alone = block == nullptr || sought;
     group.lanes = alone || !block->load(shape, {&start, 1}) ? 0 : block->lanes();

@@ -15,7 +15,7 @@ Column empty_column(std::string name, ValueType type, std::size_t width = 1, boo
   return Column({.name = std::move(name), .type = type, .width = width, .scalar = scalar});
 }
 
-/// A column of `width` numbers a row; value(row) is a vector that may be empty.
+/// Makes a column with `width` numbers in each row. value(row) is a vector that may be empty.
 template <class F>
 Column vectors(const Sweep& sweep, std::string name, std::size_t width, bool scalar, const F& value) {
   Column column = empty_column(std::move(name), ValueType::number, width, scalar);
@@ -72,7 +72,7 @@ void add_invariants(const Sweep& sweep, Table& table) {
   }
 }
 
-/// How often each hard wall was met, each event of the user, and how many steps were halved.
+/// Adds how often each hard wall was met, how often each event of the user occurred, and how many steps were halved.
 void add_events(const Sweep& sweep, Table& table) {
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     const std::vector<EventCount> counts = events_of(sweep, member);
@@ -84,7 +84,7 @@ void add_events(const Sweep& sweep, Table& table) {
   }
 }
 
-/// Of the event that ended a member's run; of the others an empty text and NaN.
+/// Adds the event that ended a member's run; an empty text and NaN for other members.
 void add_stops(const Sweep& sweep, Table& table) {
   if (!sweep.names().stop()) return;
   static const std::vector<double> none;
@@ -116,7 +116,7 @@ void add_observables(const Sweep& sweep, Table& table) {
   }
 }
 
-/// A third is no double: a member is run again from the text.
+/// Adds the varied values as text, because a member is run again from its text and a third is not a double.
 void add_given(const Sweep& sweep, Table& table) {
   const Varied& varied = sweep.varied();
   for (std::size_t key = 0; key < varied.size(); ++key) {
@@ -135,7 +135,8 @@ std::vector<std::string> all_shortest(const std::vector<double>& numbers) {
   return all;
 }
 
-/// All digits of a row. Of a member in double, where others have more, those that read back as the same double.
+/// Returns all digits of a row. If the member is in double but others have more digits, the digits are those that read
+/// back as the same double.
 FrameDigits digits_of(const MemberRow& row) {
   if (!row.digits.q.empty() || row.q.empty()) return row.digits;
   return {shortest(row.t), all_shortest(row.q), all_shortest(row.p), shortest(row.energy.final),
@@ -159,7 +160,7 @@ void add_digits(const Sweep& sweep, std::size_t n, Table& table) {
       for (const MemberRow& row : sweep.rows()) {
         const MemberStop& seen = row.stopped_by ? *row.stopped_by : none;
         List texts = digits(seen.digits);
-        if (seen.digits.q.empty() && row.stopped_by) texts = all_shortest(value(seen));  // a member in double
+        if (seen.digits.q.empty() && row.stopped_by) texts = all_shortest(value(seen));  // the member is in double
         texts.resize(width);
         for (const std::string& text : texts) column.add(text);
       }
@@ -239,7 +240,7 @@ Table sections_of(const Sweep& sweep) {
   Column t = empty_column("section/t", ValueType::number);
   Column q = empty_column("section/q", ValueType::number, n, false);
   Column p = empty_column("section/p", ValueType::number, n, false);
-  /// Each point is its time, then q, then p.
+  /// A point consists of its time, then q, then p.
   const auto add_points = [n](const auto& points, Column& its_t, Column& its_q, Column& its_p) {
     for (std::size_t k = 0; k < points.size(); ++k) {
       const std::size_t place = k % (1 + 2 * n);

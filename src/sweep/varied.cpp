@@ -12,7 +12,7 @@ namespace hamflow {
 
 namespace {
 
-/// The number of members where every combination is one.
+/// Returns the number of members if there is one for each combination.
 std::size_t combinations(const std::vector<Vary>& keys) {
   std::size_t count = 1;
   for (const Vary& key : keys) {
@@ -53,8 +53,8 @@ void refuse_length(std::size_t length) {
   if (length > longest) throw Error("found a formula that is too long when its sums are written out");
 }
 
-/// A formula without let and sum, with texts in the place of its names. Sums and products of many terms, which nest to
-/// the left, are written without brackets between them, and are followed by no recursion.
+/// Writes a formula without let and sum, with texts in place of its names. Sums and products of many terms, which nest
+/// to the left, are written without inner brackets and without recursion.
 std::string written_out(const formula::Graph& graph, int at, const std::vector<std::string>& values) {
   using formula::Op;
   const auto is_sum = [](Op op) { return op == Op::add || op == Op::subtract; };
@@ -63,7 +63,7 @@ std::string written_out(const formula::Graph& graph, int at, const std::vector<s
   std::vector<const formula::Node*> chain;
   for (; is_sum(first) ? is_sum(graph[at].op) : is_product(first) && is_product(graph[at].op); at = graph[at].a) {
     chain.push_back(&graph[at]);
-    refuse_length(2 * chain.size());  // a sign and a digit
+    refuse_length(2 * chain.size());  // each term takes at least an operator and a digit
   }
   if (!chain.empty()) {
     std::string text = "(" + written_out(graph, at, values);
@@ -100,7 +100,7 @@ std::size_t Varied::key_of(const std::string& path) const {
   return static_cast<std::size_t>(found - keys_.begin());
 }
 
-/// @param behind the keys whose formulas name this one
+/// @param behind keys whose formulas lead to this one
 void Varied::check_formula(std::size_t key, std::vector<std::size_t> behind) {
   const Vary& own = keys_[key];
   const std::string in_formula = own.path + ": found ";
@@ -218,7 +218,7 @@ std::string Varied::as_typed(std::string complaint, std::size_t member) const {
     const std::string found = "found \"" + text(member, key) + "\"";
     const std::size_t at = complaint.find(found);
     if (at == std::string::npos) continue;
-    // A column of the text with numbers in it is none of what was typed.
+    // "column N" refers to the text with inserted values, not to the typed text, so it is left out.
     const std::string column = ", column ";
     std::size_t end = at + found.size();
     if (complaint.compare(end, column.size(), column) == 0) {

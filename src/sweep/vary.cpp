@@ -16,7 +16,7 @@ constexpr std::size_t most_values = 10'000'000;
 constexpr const char* forms =
     "allowed PATH=a:b:n, n values from a to b, PATH=v1,v2,..., or PATH=FORMULA of other varied keys";
 
-/// Split where `separator` stands outside of parentheses, brackets and quotes.
+/// Splits at each `separator` outside parentheses, brackets and quotes.
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -44,7 +44,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// The value of a number, also of one in quotes.
+/// Returns the value of a number, which may be in quotes.
 std::optional<double> number_in(std::string text) {
   if (text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front()) {
     text = text.substr(1, text.size() - 2);
@@ -57,10 +57,10 @@ std::optional<double> number_in(std::string text) {
   return std::nullopt;
 }
 
-/// An end of a range as --set takes it: a number that a double cannot hold, 1/3 or one of more digits, as it was typed,
-/// so that every arithmetic reads its own digits.
+/// Returns an end of a range as --set accepts it. A number that a double cannot hold, such as 1/3 or a number with more
+/// digits, stays as it was typed, so that every arithmetic reads its own digits.
 std::string exact_end(const std::string& text, double x) {
-  constexpr std::size_t held_by_double = 16;  // characters of a decimal of 15 digits
+  constexpr std::size_t held_by_double = 16;  // length of a decimal with 15 digits
   const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
   return plain && text.size() <= held_by_double ? shortest(x) : text;
 }
@@ -88,7 +88,7 @@ std::vector<NamedPath> paths_in(const std::string& formula) {
     const std::string table = formula.substr(at, end - at);
     const bool starts_path = table == "problem" || table == "method" || table == run_table || table == output_table;
     if (starts_path && end < formula.size() && formula[end] == '.') {
-      // Dots between names, indices in brackets.
+      // A path continues with dots and names, or with indices in brackets.
       while (end < formula.size()) {
         const bool goes_on = formula[end] == '.' && end + 1 < formula.size() && is_letter(formula[end + 1]);
         const std::size_t close = formula[end] == '[' ? formula.find(']', end) : std::string::npos;
@@ -154,7 +154,7 @@ Vary parse_vary(const std::string& text) {
   const double step = n > 1 ? (b - a) / static_cast<double>(n - 1) : 0;
   const bool is_whole = a == std::floor(a) && step == std::floor(step);
   for (std::size_t i = 0; i < n; ++i) {
-    // Both ends are met exactly, and whole numbers for keys that take no others.
+    // Both ends are exact, and values of whole numbers stay whole, for keys that only accept whole numbers.
     const auto k = static_cast<double>(i);
     const double between = is_whole ? a + step * k : a + (b - a) * (n > 1 ? k / static_cast<double>(n - 1) : 0);
     const double x = i + 1 == n && n > 1 ? b : between;

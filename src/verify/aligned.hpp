@@ -1,4 +1,4 @@
-// Private to hamflow_verify: tables of plain text.
+// Private to hamflow_verify: writes tables as plain text.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@ namespace hamflow {
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// Columns as wide as their widest entry, two blanks between them. The last entry of a line that is shorter than the
-/// first one is a remark, and widens nothing.
+/// Makes each column as wide as its widest entry, with two blanks between columns. The last entry of a line that is
+/// shorter than the first line is a remark, and does not widen its column.
 std::string aligned(const Lines& lines);
 
 }  // namespace hamflow

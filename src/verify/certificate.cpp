@@ -17,10 +17,10 @@
 namespace hamflow {
 
 namespace {
-constexpr std::size_t most_watched = 5000;  // coordinates whose turns are counted, with 270 bytes for each
+constexpr std::size_t most_watched = 5000;  // coordinates whose turns are counted; each takes 270 bytes
 constexpr std::uint64_t seed = 1686;        // arbitrary but fixed, because the places of the samples affect the result
 
-/// A place in the first half of the k-th block, which is still in the first half after two blocks are joined.
+/// Returns a place in the first half of the k-th block. After two blocks are joined, it is still in the first half.
 std::int64_t place(std::int64_t k, std::int64_t block_steps) {
   const std::int64_t room = std::max<std::int64_t>(1, block_steps / 2);
   if (k == 0) return 0;
@@ -102,7 +102,7 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
   const double p_sum = sum_of_sizes(frame.p);
   const double p_most = largest(frame.p);
   const double sizes[] = {largest(frame.q), p_most, p_sum, sum_of_sizes(frame.q) * p_most, norm(frame.q) * p_most};
-  state_.magnitudes.resize(std::size(sizes));  // older checkpoints have four
+  state_.magnitudes.resize(std::size(sizes));  // older checkpoints have only four
   for (std::size_t i = 0; i < std::size(sizes); ++i) state_.magnitudes[i] = std::max(state_.magnitudes[i], sizes[i]);
   if (energies.size() > most_blocks) {
     thin(energies);
@@ -114,9 +114,9 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
 }
 
 namespace {
-/// For each invariant I (its largest component) the sum of |x dI/dx| over all coordinates and momenta x, at the start
-/// or the end of a run, whichever is larger. One rounding of each x changes I by so many roundings. Empty for systems
-/// with many coordinates.
+/// Returns for each invariant I (its largest component) the sum of |x dI/dx| over all coordinates and momenta x, at the
+/// start or the end of a run, whichever is larger. A rounding of each x by one unit changes I by as many units. The
+/// result is empty for systems with many coordinates.
 std::vector<double> sizes_of_invariants(const Request& request, const Frame& end) {
   constexpr std::size_t most_coordinates = 64;
   constexpr double part = 0x1p-20;
@@ -164,19 +164,23 @@ std::vector<double> sizes_of_invariants(const Request& request, const Frame& end
 }
 }  // namespace
 
-/// Each kick and each drift rounds a position or a momentum once, by at most half a unit, which changes an invariant
-/// with terms of size T by about epsilon T. n roundings make a walk of sqrt(n) such changes, and evaluating the
+/// Each kick and each drift rounds a position or a momentum once, by at most half a unit. This changes an invariant
+/// with terms of size T by about epsilon T. n roundings make a random walk of sqrt(n) such changes, and evaluating the
 /// invariant adds a few roundings. The bound is 16 of each: the maximum of a walk over the whole run is rarely above
-/// four standard deviations, and two coordinates of a body, or two bodies, are rounded in every operation. The centre
-/// of mass also integrates the walk of the momentum over the time of the run. Angular momentum sums the roundings of
-/// all bodies, which are independent: a kick changes it by |q| |dp| of norms, not of sums. For 121 particles the sum of
-/// sizes is larger by a factor of 13, which could hide a drift of the method. So `conserved` means below four standard
-/// deviations of this walk: a rounding is at most half a unit, with a standard deviation of 0.29 units, and for q and p
-/// together four of them are 1.6 sqrt(n); 2 times two units are used. Evaluating it adds as many terms as there are
-/// coordinates, each at most of its own size. Between this bound and the sum of sizes it is undecided whether rounding
-/// or the method is the cause, because stages and iterations round more than once. It is also undecided if n roundings
-/// of one unit to the same side could be the cause: a free body is moved by the same number in every step, and is
-/// rounded to the same side until its exponent changes.
+/// four standard deviations, and in every operation two coordinates of a body, or two bodies, are rounded. The centre
+/// of mass also integrates the walk of the momentum over the time of the run.
+///
+/// Angular momentum sums the roundings of all bodies, which are independent: a kick changes it by |q| |dp| with norms
+/// instead of sums. For 121 particles the sum of sizes is 13 times larger and could hide a drift of the method. So
+/// `conserved` means below four standard deviations of this walk: a rounding is at most half a unit, its standard
+/// deviation is 0.29 units, and four of them for q and p together are 1.6 sqrt(n); 2 times two units are used.
+/// Evaluating the invariant adds as many terms as there are coordinates, each at most of its own size. Between this
+/// bound and the sum of sizes the cause is undecided, rounding or method, because stages and iterations round more than
+/// once.
+///
+/// The cause is also undecided if n roundings of one unit to the same side could explain the error. Such roundings
+/// occur: a free body moves by the same number in every step, and is rounded to the same side until its exponent
+/// changes.
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request) {
   std::vector<MomentumMap> all;
@@ -227,7 +231,8 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         if (!problem.total_mass) break;
         const double mass = problem.total_mass(complete(problem.info, request.parameters), end.q.size());
         size = std::max(size, magnitudes[0]);
-        // Evaluating it sums as many terms as there are bodies, and each addition rounds a sum of the whole size.
+        // Evaluating the centre of mass sums as many terms as there are bodies, and each addition rounds a sum of full
+        // size.
         const double reading = 4 * std::sqrt(static_cast<double>(end.q.size()));
         const double most =
             (walk + reading) * q_unit * size + walk * p_unit * magnitudes[2] / mass * std::abs(end.time);
@@ -252,7 +257,8 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
 
 namespace {
 
-/// With so many coordinates a run and its reversal are not in memory at the same time, since each has neighbour lists.
+/// From this many coordinates on, the run and its reversal are not in memory at the same time, because each has
+/// neighbour lists.
 constexpr std::size_t coordinates_in_memory_once = 100'000;
 
 double roundings_of(const Simulation& simulation) {
@@ -260,7 +266,7 @@ double roundings_of(const Simulation& simulation) {
   return std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
 }
 
-/// The coordinates without a turn since their range doubled last, and angles that have made a full turn.
+/// Returns the coordinates without a turn since their range last doubled, and the angles that have made a full turn.
 std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const std::vector<Swings>& swings,
                                              std::int64_t steps_taken) {
   const std::vector<std::string>& names = problem.info.coordinates;
@@ -274,9 +280,9 @@ std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const 
   return growing;
 }
 
-/// Finds the slowest oscillation. An angle that has made a full turn is not an oscillation. A momentum is only used if
-/// its coordinate has not turned: on an eccentric orbit the momentum has a peak at each pericentre that is too short
-/// for the samples, and the coordinate has the same period.
+/// Finds the slowest oscillation. An angle that has made a full turn does not oscillate. A momentum is only used if its
+/// coordinate has not turned: on an eccentric orbit the momentum peaks at each pericentre, too briefly for the samples,
+/// and the coordinate has the same period.
 void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings, std::int64_t steps_taken,
                   EnergySeries& series) {
   const std::vector<std::string>& names = problem.info.coordinates;
@@ -306,18 +312,18 @@ void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings
     if (!goes_on) series.still = (whole - static_cast<double>(last_turn)) / whole;
     return;
   }
-  series.periods = earlier;  // a widening orbit had turns before its range doubled last
+  series.periods = earlier;  // a widening orbit turned before its range last doubled
   series.steady = false;
 }
 
-/// Whether the energy of a method has no drift: it is symplectic, with equal steps that are solved to rounding. With
-/// forces of many particles that are cut off it may have one.
+/// Returns whether the energy of a method has no drift: the method is symplectic, takes equal steps, and solves its
+/// equations to rounding. Cut-off forces of many particles may cause a drift nevertheless.
 bool keeps_an_energy(const Request& request, const ProblemEntry& problem, const MethodInfo& method) {
   return method.symplectic && takes_equal_steps(method) && !method.carries_copy && !has_hard_walls(request) &&
          request.method.options.count(tolerance_option) == 0 && !problem.particles;
 }
 
-/// Whether the run has bounced off walls at which the energy of the method makes a walk (docs/design/walls.md).
+/// Returns whether the run has bounced off walls at which the energy makes a random walk (docs/design/walls.md).
 bool walks_at_walls(const Request& request, const Simulation& simulation) {
   const auto& walls = request.walls;
   if (!walls || !(walls->rule == WallRule::event || walls->rule == WallRule::reject)) return false;
@@ -326,17 +332,18 @@ bool walks_at_walls(const Request& request, const Simulation& simulation) {
          std::any_of(counts.begin(), counts.end(), [](const WallCount& wall) { return wall.bounces > 0; });
 }
 
-/// The differences of the energies from the first one, and their unit.
+/// Returns the differences of the energies from the first one, and their unit.
 std::pair<EnergySeries, std::string> series_of(const Request& request, const ProblemEntry& problem,
                                                const Simulation& simulation, const EnergyBlockState& state,
                                                const RunEnds& ends, double size) {
   EnergySeries series;
-  // The scale determines the rounding, unless terms cancel at the start; these are rounded, too.
+  // The scale of the energy determines its rounding error, unless large terms cancel at the start: these are rounded,
+  // too.
   const double scale = simulation.energy_scale();
   const double dt = evaluate_number<double>(request.dt);
   const double at_start =
       std::max(size > scale ? virial_per_size * size : scale, rounding_of_state(request, problem, ends, dt));
-  // If not every coordinate is observed, the ends of the run are empty.
+  // If not every coordinate is observed, `ends` is empty.
   const double growing =
       rounding_of_growing(request, problem, ends, growing_coordinates(problem, state.swings, simulation.step()), dt);
   const double rounded = at_start + growing;
@@ -372,7 +379,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   found.typically_exchanged = blocks.state().exchange.typical();
   const double scale = simulation.energy_scale();
   const RunEnds ends = ends_of(request, simulation);
-  // The class must not depend on a constant in H, since the motion does not.
+  // A constant in H must not change the class, because it does not change the motion.
   const double exchanged = found.typically_exchanged.value_or(0);
   const bool is_motion = simulation.energy().max_error < exchanged && std::isfinite(exchanged);
   const double energy_size =
@@ -396,7 +403,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
                     least.text.empty() ? fmt::format("{:.1e}", least.value) : least.text);
   }
   LongNumber error = simulation.energy().max_error;
-  // The error is below the range of double, so the one of the samples is used.
+  // The error is below the range of double, so the largest difference of the samples is used.
   if (error.value == 0 && !blocks.state().digits.empty()) error = times(1, unit);
   // If the scale is 0 up to rounding, there is no relative error.
   constexpr double rounding_of_zero = 0x1p-40;

@@ -23,39 +23,41 @@ namespace hamflow {
 
 namespace {
 
-constexpr double nothing_but_rounding = 0x1p-40;  // of scaled states: an iteration that ends at 1e-13 counts as exact
-constexpr double exact_to_rounding = 0x1p-44;     // 256 roundings: an adaptive method of small tolerance has more
-constexpr double told_from_rounding = 1024;       // times rounding: an error of the method that shows
-constexpr double part_of_the_error = 0x1p-10;     // a defect above it belongs to the method, not to its solver
-constexpr double most_error = 0.3;                // of scaled states: with more a step shows nothing
-constexpr double smooth = 0.02;                   // with more noise an error is that of rounding, or of a solver
+// rounding of a scaled state: an iteration that ends at 1e-13 counts as exact
+constexpr double nothing_but_rounding = 0x1p-40;
+constexpr double exact_to_rounding = 0x1p-44;  // 256 roundings; an adaptive method with a small tolerance makes more
+constexpr double told_from_rounding = 1024;    // an error of the method has to be this many times the rounding error
+// a defect above this fraction of the error belongs to the method, not to its solver
+constexpr double part_of_the_error = 0x1p-10;
+constexpr double most_error = 0.3;  // error of a scaled state; a step with a larger error shows nothing
+constexpr double smooth = 0.02;     // an error with more noise comes from rounding or from a solver
 constexpr const char* energy_name = "energy";
 
-/// Differences of order 6 along one direction, with the two lengths that agree best.
+/// Central differences of order 6 along one direction, from the two difference lengths that agree best.
 struct Derivative {
   State<double> value;
   double uncertainty = 0;
 };
 
-/// The defect of a property with one step length, beside the error of the step there and what rounding explains.
+/// The defect of a property for one step size, with the error of the step and the error that rounding explains.
 struct Vote {
   double h = 0;
   double defect = 0;
   double rounding = 0;
   double error = 0;
-  double noise = 0;  // the part of the error that is no smooth function of h
+  double noise = 0;  // the part of the error that is not a smooth function of h
   bool is_smooth() const { return noise <= smooth; }
   bool is_told() const { return is_smooth() && error >= told_from_rounding * rounding; }
   bool is_kept() const { return defect <= 4 * rounding; }
   bool is_broken() const { return defect > 32 * rounding && defect > part_of_the_error * error; }
 };
 
-/// What the votes of all step lengths come to.
+/// The conclusion from the votes of all step sizes.
 struct PropertyVerdict {
   std::optional<bool> holds;
   std::string reason;
 };
-/// Why too few votes tell the error of the method from rounding.
+/// Explains why too few votes separate the error of the method from rounding.
 std::string why_untold(const std::vector<Vote>& votes) {
   if (votes.empty()) return fmt::format("no step has an error below {} of the size of the state", most_error);
   const Vote& last = votes.back();
@@ -139,7 +141,8 @@ class StepExamination {
   }
 
  private:
-  /// Taylor series in long double, with sub-steps of their own: their tolerance is relative to the sizes of q and of p.
+  /// Returns the flow of the problem in long double: a Taylor series, or dop853, with adaptive sub-steps whose
+  /// tolerance is relative to the sizes of q and of p.
   std::unique_ptr<StepMap> exact_flow() const {
     for (const char* method : {"taylor", "dop853"}) {
       const Request request{.problem = problem_.entry->info.name,
@@ -153,16 +156,17 @@ class StepExamination {
     throw Error("single steps cannot be measured on " + problem_.entry->info.name);
   }
 
-  /// The state after the time h; without value where the motion cannot be followed.
+  /// Returns the state after the time h; nullopt if the motion cannot be integrated so far.
   std::optional<State<long double>> exact(const State<double>& z, double h) const {
     State<long double> end(z.begin(), z.end());
     if (!flow_->advance(end, static_cast<long double>(h), 1)) return std::nullopt;
     return end;
   }
 
-  /// Steps tiny beside the time scale of the motion would all be exact to rounding.
+  /// Checks that the states move noticeably. If the steps were tiny compared with the time scale of the motion, every
+  /// method would be exact to rounding.
   void check_motion() const {
-    constexpr double least = 0.02;  // of the units of q and p
+    constexpr double least = 0.02;  // in units of q and p
     double most = 0;
     for (const auto& z : around_.states) {
       for (const double part : {1.0, 0.25}) {
@@ -185,7 +189,7 @@ class StepExamination {
   std::size_t size() const { return around_.unit.size(); }
   std::size_t degrees() const { return size() / 2; }
 
-  /// The state after a step, which has to be there. @throws Error
+  /// Returns the state after a step. @throws Error if the step fails
   State<double> stepped(const State<double>& z, double h) {
     const auto half = z.begin() + static_cast<std::ptrdiff_t>(degrees());
     std::vector<double> q(z.begin(), half);
@@ -203,7 +207,7 @@ class StepExamination {
     }
     return q;
   }
-  /// Without value where the step fails, as it may with a long h.
+  /// The same, but nullopt if the step fails, as it may with a large h.
   std::optional<State<double>> tried(const State<double>& z, double h) {
     try {
       return stepped(z, h);
@@ -213,7 +217,7 @@ class StepExamination {
     }
   }
 
-  /// The error of a step in units of the state; without value where the step fails.
+  /// Returns the error of a step in units of the state; nullopt if the step fails.
   std::optional<State<double>> error_of(const State<double>& z, double h) {
     const auto end = tried(z, h);
     if (!end) return std::nullopt;
@@ -226,7 +230,7 @@ class StepExamination {
     }
     return error;
   }
-  /// Of all states together; without value where a step fails.
+  /// Returns the RMS error over all states; nullopt if a step fails.
   std::optional<double> mean_error(double h) {
     double squares = 0;
     for (const auto& z : around_.states) {
@@ -250,7 +254,7 @@ class StepExamination {
     }
   }
 
-  /// The same call twice, with another one between. What fails here is an error.
+  /// Makes the same call twice, with another one in between. @throws Error if a step fails here
   void check_repeatable() {
     const State<double>& z = around_.states[0];
     const auto begin = std::chrono::steady_clock::now();
@@ -264,7 +268,7 @@ class StepExamination {
                       "changes its arguments in place",
                       short_step_));
     }
-    // Some 2000 calls are made of four states; fewer of a step that is slow.
+    // The measurements make about 2000 calls from four states. A slow step is measured from fewer states.
     constexpr double slow = 3e-3;
     if (taken.count() > slow) around_.states.resize(std::min<std::size_t>(around_.states.size(), 2));
     if (taken.count() > 3 * slow) around_.states.resize(1);
@@ -277,15 +281,15 @@ class StepExamination {
         "arguments");
   }
 
-  /// The error of a step, and which part of it is no smooth function of h.
+  /// The error of a step, and the fraction of it that is not a smooth function of h.
   struct OrderPoint {
     double h = 0;
     double error = 0;
     double noise = 0;
   };
-  /// Without value where a step fails.
+  /// nullopt if a step fails.
   std::optional<OrderPoint> order_point(double h) {
-    constexpr double nearby = 0x1p-10;  // of h
+    constexpr double nearby = 0x1p-10;  // relative to h
     double squares = 0;
     double second_differences = 0;
     for (const auto& z : around_.states) {
@@ -295,7 +299,8 @@ class StepExamination {
       if (!above) return std::nullopt;
       squares += std::pow(size_of(*here), 2);
       for (std::size_t i = 0; i < size(); ++i) {
-        second_differences += std::pow((*below)[i] - 2 * (*here)[i] + (*above)[i], 2) / 6;  // 1 + 4 + 1
+        // 1 + 4 + 1, the squares of the weights
+        second_differences += std::pow((*below)[i] - 2 * (*here)[i] + (*above)[i], 2) / 6;
       }
     }
     const double count = static_cast<double>(around_.states.size());
@@ -306,7 +311,7 @@ class StepExamination {
     constexpr int most_lengths = 128;
     constexpr std::size_t enough = 24;
     constexpr double rounding_in_single_precision = 0x1p-17;
-    constexpr int gone = 8;  // so many noisy errors in turn, a factor of 4 in h
+    constexpr int gone = 8;  // stops after this many noisy errors in succession, over a factor of 4 in h
     std::vector<OrderPoint> points;
     double largest_error = 0;
     int noisy = 0;
@@ -322,14 +327,14 @@ class StepExamination {
     fit_order(points, largest_error);
   }
 
-  /// log E = a + s log h + b h^k + c h^l, by least squares.
+  /// Fit of log E = a + s log h + b h^k + c h^l, by least squares.
   struct PowerFit {
     double order = 0;
     double uncertainty = 0;
-    double misfit = std::numeric_limits<double>::infinity();  // 1: as noise has it
+    double misfit = std::numeric_limits<double>::infinity();  // RMS residual in units of the noise
   };
   static PowerFit fitted_power(std::span<const OrderPoint> points, const std::vector<int>& powers) {
-    constexpr double least_noise = 1e-3;  // what of log E the terms left out are allowed
+    constexpr double least_noise = 1e-3;  // part of log E that the omitted terms may explain
     std::vector<std::vector<double>> columns;
     const auto add = [&](const auto& value) {
       std::vector<double> column;
@@ -345,8 +350,8 @@ class StepExamination {
       for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
       return sum;
     };
-    // Each column is made orthogonal to those before it. The exponent is the slope of the remaining log E
-    // over the remaining log h.
+    // Each column is made orthogonal to the ones before it. The exponent is the slope of the remaining log E over the
+    // remaining log h.
     for (std::size_t k = 0; k + 2 < columns.size(); ++k) {
       for (std::size_t l = k + 1; l < columns.size(); ++l) {
         const double along = product(columns[k], columns[l]) / product(columns[k], columns[k]);
@@ -361,8 +366,8 @@ class StepExamination {
     return {exponent - 1, 1 / std::sqrt(product(log_h, log_h)), std::sqrt(product(rest, rest) / degrees_left)};
   }
 
-  /// The finest part of the errors that is a power of h, with up to two terms beside it. Errors below 10^-12 are taken
-  /// last: there published coefficients of 12 digits show.
+  /// Finds the smallest step sizes at which the error is a power of h, with up to two more terms. Errors below 10^-12
+  /// are tried last, because there the rounding of published coefficients with 12 digits shows.
   void fit_order(const std::vector<OrderPoint>& points, double largest_error) {
     constexpr std::size_t fewest = 6;
     constexpr std::size_t most_ends = 6;
@@ -408,7 +413,7 @@ class StepExamination {
         fmt::format("order undecided: the errors grow about like h^{:.1f}, but are not a power of h", best.order + 1));
   }
 
-  /// Directions in units of the state: all axes, or some random ones of a large problem.
+  /// Directions in units of the state: all axes, or a few random directions for a large problem.
   std::vector<State<double>> directions() const {
     constexpr std::size_t most_directions = 6;
     std::vector<State<double>> all;
@@ -429,7 +434,7 @@ class StepExamination {
     return all;
   }
 
-  /// The derivative of a step along u; without value where a step fails.
+  /// Returns the derivative of a step along u; nullopt if a step fails.
   std::optional<Derivative> derivative(const State<double>& z, const State<double>& u, double h) {
     constexpr double lengths[] = {0x1p-7, 0x1p-8, 0x1p-9};
     constexpr double weights[] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
@@ -505,8 +510,8 @@ class StepExamination {
     return vote;
   }
 
-  /// The energy, and the components of every invariant, at a state.
-  /// @param t for the centre of mass, which moves on
+  /// Returns the energy and the components of all invariants at a state.
+  /// @param t the time, which the centre of mass depends on
   std::vector<std::vector<double>> kept_at(const State<double>& z, double t = 0) const {
     const auto half = z.begin() + static_cast<std::ptrdiff_t>(degrees());
     const std::vector<double> q(z.begin(), half);
@@ -536,7 +541,7 @@ class StepExamination {
     }
     return all;
   }
-  /// By how much a unit of each number of a state moves them.
+  /// Returns how much each of them changes when the numbers of a state change by one unit.
   std::vector<double> sizes_of_kept(const State<double>& z) const {
     constexpr double part = 0x1p-10;
     std::vector<double> sizes;
@@ -556,7 +561,7 @@ class StepExamination {
     }
     return sizes;
   }
-  /// One vote for each of names(); without value where a step fails.
+  /// Returns one vote for each of names(); nullopt if a step fails.
   std::optional<std::vector<Vote>> invariant_votes(const OrderPoint& at) {
     std::vector<Vote> votes(names().size(), blank_vote(at));
     for (std::size_t k = 0; k < around_.states.size(); ++k) {
@@ -577,8 +582,8 @@ class StepExamination {
   }
 
   void measure_structure() {
-    // From a thirtieth of a period, or a shorter step where that fails, to a whole one. Longer steps are taken where
-    // the shorter ones show too little.
+    // Step sizes go from a thirtieth of a period, or less if such a step fails, to a whole period. Larger step sizes
+    // are used if the smaller ones show too little.
     double h = 2 * short_step_;
     const auto is_sane = [&](double length) {
       const auto error = mean_error(length);
@@ -631,7 +636,7 @@ class StepExamination {
     const std::vector<std::string> all = names();
     for (std::size_t i = 0; i < all.size(); ++i) found_.preserves.emplace_back(all[i], decide(kept[i], all[i]));
   }
-  /// Steps whose error is rounding show nothing, unless all do.
+  /// Steps whose error is at rounding level are dropped, unless all steps are.
   static void add(std::vector<Vote>& votes, const Vote& vote) {
     if (vote.is_told()) std::erase_if(votes, [](const Vote& before) { return !before.is_told(); });
     votes.push_back(vote);
@@ -664,7 +669,8 @@ class StepExamination {
     };
     if (claims_.order) {
       const double claimed = *claims_.order;
-      // The nearest whole number; of high orders few errors stand above rounding, and other terms are seen with them.
+      // The measured order agrees with the nearest whole number. For high orders only few errors are above rounding,
+      // and other terms contribute to them.
       const double tolerance = *claims_.order <= 6 ? 0.5 : 1;
       if (!found_.order || !is_power_ || std::isinf(*found_.order)) {
         undecided = true;

@@ -18,7 +18,7 @@ namespace hamflow {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-/// Told the part of a run that is done; false stops.
+/// Receives the finished fraction of a run; returns false to stop.
 using Pulse = std::function<bool(double part)>;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -41,7 +41,8 @@ struct Timing {
   std::vector<double> processor{};
 };
 
-/// A run in blocks that grow until a look at the clock is nothing beside them; a single slow step is a block.
+/// Runs in blocks that grow until the time for reading the clock is negligible. A single slow step is a block of its
+/// own.
 Outcome timed_run(Simulation& simulation, std::int64_t steps, const Pulse& pulse, Timing& timing) {
   const double processor_begin = processor_seconds();
   const auto begin = Clock::now();
@@ -65,8 +66,9 @@ Outcome timed_run(Simulation& simulation, std::int64_t steps, const Pulse& pulse
   return Outcome::done;
 }
 
-/// Repeats the bare steps, without the probe, for the medians of at least seven runs and 20 ms. What takes longer than
-/// a quarter of a second is not repeated so often; beyond double the probe is nothing beside the steps.
+/// Repeats the bare steps, without watching the energy, for the median of at least seven runs and 20 ms. A run that
+/// takes longer than a quarter of a second is repeated less often. Beyond double the first run counts too, because
+/// watching costs little compared with the steps.
 Outcome time_again(const Request& request, std::int64_t steps, bool beyond_double, const Pulse& pulse, Timing& timing) {
   constexpr double enough = 0.02;
   constexpr double much = 0.25;
@@ -94,16 +96,16 @@ std::string reason_of(const Simulation& simulation, Outcome outcome) {
                      own_words.empty() ? std::string(message(outcome)) : own_words);
 }
 
-/// Runs a job, but for its error. Outcome::stopped when the pulse says so.
+/// Runs a job, except for the error against the reference. Returns Outcome::stopped if the pulse stops it.
 Outcome carry_out(ComparisonJob& job, const Pulse& pulse) {
   ComparisonPoint& point = job.point;
   const bool beyond_double = digits_beyond_double(job.request.arithmetic) > 0;
   const auto begin = Clock::now();
   const auto simulation = make_simulation(job.request);
   Timing timing;
-  double whole = 1;  // of the time for the job, what this run takes
+  double whole = 1;  // the fraction of the job's time that this run takes
   const Pulse of_job = [&](double part) { return pulse(part * whole); };
-  // Beyond double a step takes long enough to be asked within it.
+  // Beyond double a step takes so long that the pulse is called within it.
   const std::function<bool()> goes_on = [&] {
     return of_job(static_cast<double>(simulation->step()) / static_cast<double>(point.steps));
   };
@@ -131,20 +133,21 @@ Outcome carry_out(ComparisonJob& job, const Pulse& pulse) {
   point.end_energy_error = beyond_double ? relative_difference(end.digits.energy, end.digits.initial_energy, scale,
                                                                digits_of(job.request.arithmetic) + 10)
                                          : Magnitude(std::abs(energy.final - energy.initial) / scale);
-  if (energy.max_error == 0) point.max_energy_error = point.end_energy_error;  // no double is so small
+  if (energy.max_error == 0) point.max_energy_error = point.end_energy_error;  // the error is below the range of double
   if (time_again(
           job.request, point.steps, beyond_double, [&](double) { return pulse(1); }, timing) == Outcome::stopped) {
     job.finished = false;
     return Outcome::stopped;
   }
   point.wall_seconds = median(timing.wall);
-  // Time that other programs take from the processor is not the method's; a clock of the processor, though, is slow to
-  // read.
+  // The time that other programs take from the processor does not count. The smaller time is used, because reading the
+  // processor's clock is slow.
   point.seconds = std::min(point.wall_seconds, median(timing.processor));
   return Outcome::done;
 }
 
-/// Angles that a closed form gives up to whole turns are moved to the nearest.
+/// Moves angles by whole turns to the value nearest to the reference, because a closed form gives angles only up to
+/// whole turns.
 void unwind(const ProblemInfo& info, const ReferenceSolution& reference, std::vector<std::string>& end) {
   if (reference.kind != "closed form") return;
   const double turn = 2 * pi_value<double>();
@@ -155,7 +158,7 @@ void unwind(const ProblemInfo& info, const ReferenceSolution& reference, std::ve
   }
 }
 
-/// The largest difference of each group of numbers with one unit, in that unit.
+/// Returns the largest difference of each group of numbers with one unit, in that unit.
 std::vector<std::pair<std::string, Magnitude>> differences_of(const ProblemEntry& problem,
                                                               const std::vector<std::string>& end,
                                                               const std::vector<std::string>& reference, int digits) {
@@ -178,11 +181,13 @@ std::vector<std::pair<std::string, Magnitude>> differences_of(const ProblemEntry
 void judge(ComparisonJob& job, const ProblemEntry& problem, const ReferenceSolution& reference) {
   if (job.end.empty()) return;
   unwind(problem.info, reference, job.end);
-  // Twice the digits of the reference: a difference of 45-digit decimals of doubles is formed without a rounding.
+  // With twice the digits of the reference, differences of doubles, written as 45-digit decimals, are formed without
+  // rounding.
   const int digits = std::max(100, 2 * digits_of(job.request.arithmetic));
   job.point.error = largest_difference(job.end, reference.digits, reference.sizes, digits);
   job.point.differences = differences_of(problem, job.end, reference.digits, digits);
-  // A closed form that is known to the last digit is uncertain by 0: an error of 0 is then what it says.
+  // A closed form that is known to the last digit has the uncertainty 0. Then an error of 0 is not a bound but a
+  // result.
   job.point.below_uncertainty = Magnitude() < reference.uncertainty && !(reference.uncertainty < job.point.error);
 }
 
@@ -228,7 +233,8 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
     }
     return true;
   };
-  // A first look at the pace of everything, the shortest run of each method, tells how long the rest will take.
+  // The shortest run of each method and a first piece of the reference are timed first, to estimate how long the rest
+  // will take.
   bool going = follow_reference() && carry_out_if([&](const ComparisonJob& job) { return job.work == 1; });
   while (going && !reference.finished()) going = follow_reference();
   if (!reference.finished()) return found;

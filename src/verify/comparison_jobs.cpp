@@ -13,36 +13,39 @@ namespace hamflow {
 
 namespace {
 
-constexpr std::int64_t adaptive_steps = 32;  // few, as each cuts a sub-step short
+constexpr std::int64_t adaptive_steps = 32;  // few, because each step cuts a sub-step short
 
-/// A tolerance for adaptive methods, in place of the k-th dt: in equal powers of ten from 1e-3 to three digits above
-/// the rounding; a single one is the default of the methods.
+/// Returns the tolerance of an adaptive method in place of the k-th dt. Tolerances go in equal ratios from 1e-3 to a
+/// value three digits above rounding. If there is only one, it is the default of the methods.
 double usual_tolerance(std::size_t k, std::size_t count, int digits) {
   const int beyond = std::clamp(digits, 8, 300);
   if (count < 2) return std::pow(10.0, digits > 16 ? 4 - beyond : -12);
   return std::pow(10.0, -3.0 - (beyond - 6) * static_cast<double>(k) / static_cast<double>(count - 1));
 }
 
-/// What a run costs beside the first one of its method: steps, or how a tolerance shortens sub-steps.
+/// Returns the expected work of a run relative to the first run of its method, from the number of steps or from how the
+/// tolerance shortens sub-steps.
 double relative_work(const ComparisonPoint& first, const ComparisonPoint& point) {
   if (!first.tolerance || !point.tolerance) {
     return static_cast<double>(point.steps) / static_cast<double>(first.steps);
   }
-  if (first.order != point.order) {  // of a series: as many steps, whose work is the square of the order
+  // a series takes the same number of steps, and its work grows with the square of the order
+  if (first.order != point.order) {
     return static_cast<double>(point.order * point.order) / static_cast<double>(first.order * first.order);
   }
   return std::pow(*first.tolerance / *point.tolerance, 1.0 / point.order);
 }
 
-/// A number in one spelling, a word as it is.
+/// Returns a number in its shortest spelling, and a word unchanged.
 std::string same_spelling(const OptionInfo& option, const std::string& text) {
   const bool is_word = text.empty() || option.type != OptionType::number ||
                        std::find(option.words.begin(), option.words.end(), text) != option.words.end();
   return is_word ? text : shortest(number_value(text));
 }
 
-/// Of an option that is not given: its default where it has a place in canonical names, as in cg(1,auto). A default of
-/// any other may depend on what else is given, and nothing is the same as it.
+/// Returns the value of an option. An option that is not given has its default, if canonical names contain it, as in
+/// cg(1,auto). For other options the result is empty: their default may depend on other options, so it never equals a
+/// given value.
 std::string value_of(const MethodSpec& method, const OptionInfo& option) {
   const auto given = method.options.find(option.name);
   if (given != method.options.end()) return same_spelling(option, given->second);
@@ -54,7 +57,7 @@ bool stands_in(const std::string& name, const OptionInfo& option) {
   return at != std::string::npos && at > 0 && (name[at - 1] == '(' || name[at - 1] == ',');
 }
 
-/// @param alike all methods of the same canonical name, this one among them
+/// @param alike all methods with the same canonical name, including this one
 std::string name_among(const MethodSpec& method, const std::vector<const MethodSpec*>& alike) {
   const std::string shared = describe(method).name;
   const std::size_t open = shared.find('(');
@@ -66,7 +69,7 @@ std::string name_among(const MethodSpec& method, const std::vector<const MethodS
     const auto given = method.options.find(option.name);
     if (!differs || given == method.options.end()) continue;
     const std::string told = option.name + "=" + given->second;
-    if (stands_in(shared, option)) {  // with fewer digits than those in which they differ
+    if (stands_in(shared, option)) {  // the canonical name shows fewer digits than those in which they differ
       const std::size_t at = inside.find(option.name + "=");
       inside.replace(at, std::min(inside.find(',', at), inside.size()) - at, told);
     } else {
@@ -113,7 +116,7 @@ std::vector<ComparisonJob> comparison_jobs(const ComparisonRequest& asked) {
       job.request.watch = true;
       ComparisonPoint& point = job.point;
       point.steps = asked.steps[k];
-      point.method = names[m];  // as requested: the tolerance varies like a step
+      point.method = names[m];  // the name as requested, because the tolerance varies like dt
       if (describe(asked.methods[m]).own_substeps) {
         if (!own_tolerance) {
           job.request.method.options[tolerance_option] = shortest(usual_tolerance(k, asked.steps.size(), digits));
@@ -150,7 +153,7 @@ void ComparisonClock::reference_spent(double seconds, double part) {
   reference_part_ = part;
 }
 
-/// From the last run of the method that has come to its end.
+/// Estimates from the last finished run of the method.
 std::optional<double> ComparisonClock::expected(const ComparisonJob& job) const {
   const ComparisonJob* known = nullptr;
   for (const ComparisonJob& other : jobs_) {
@@ -178,7 +181,8 @@ ComparisonProgress ComparisonClock::look(const ComparisonJob* running, double pa
   }
   if (!known) return now;
   const double spent = std::chrono::duration<double>(Clock::now() - begin_).count();
-  shown_ = std::max(shown_, spent > 0 ? spent / (spent + left) : 0);  // an estimate that grows does not take back
+  // if the estimate of the remaining time grows, the shown progress stays
+  shown_ = std::max(shown_, spent > 0 ? spent / (spent + left) : 0);
   now.part = shown_;
   now.seconds_left = left;
   return now;
@@ -199,7 +203,7 @@ std::vector<std::string> comparison_notes(const ComparisonRequest& asked) {
       notes.push_back(why + "its row has the default tolerance");
     }
   }
-  // The reference of many coordinates takes longer than all runs of the comparison, without any sign of progress.
+  // With many coordinates the reference takes longer than all runs of the comparison, and shows no progress.
   constexpr std::size_t many = 1000;
   const std::size_t coordinates = asked.request.start.q.size();
   if (coordinates >= many && !find_problem(asked.request)->exact) {

@@ -1,4 +1,4 @@
-// The runs of a comparison, and how long those that are left will take.
+// The runs of a comparison, and estimates of the time that the remaining ones take.
 #pragma once
 
 #include <chrono>
@@ -11,31 +11,31 @@ namespace hamflow {
 
 /// One run: a method with one dt or tolerance.
 struct ComparisonJob {
-  std::size_t method = 0;  // in the request
+  std::size_t method = 0;  // index in the request
   Request request;
   ComparisonPoint point;
   bool finished = false;
-  double work = 1;                 // relative to the first run of the method, as it is expected
-  double seconds = 0;              // of one run, once finished
-  std::vector<std::string> end{};  // the state, with all digits
+  double work = 1;                 // expected work relative to the first run of the method
+  double seconds = 0;              // time of one run, known once it is finished
+  std::vector<std::string> end{};  // final state with all digits
 };
 
-/// Method by method, in the order of their rows.
+/// Returns the runs, ordered by method like the rows of the table.
 std::vector<ComparisonJob> comparison_jobs(const ComparisonRequest& asked);
-/// Whether a method chooses its sub-steps itself and was given the tolerance to do so: then no dt matters.
+/// Returns whether a method chooses its own sub-steps and was given a tolerance. Then dt has no influence.
 bool has_own_tolerance(const MethodSpec& method);
 
-/// How long the timing of a run that takes so many seconds goes on, the first run included.
+/// Returns how long the timing of a run takes that needs `seconds` once, including the first run.
 double seconds_of_timing(double seconds, bool beyond_double);
 
-/// Tells part and time left from the pace of what is done.
+/// Estimates progress and remaining time from the speed of the finished runs.
 class ComparisonClock {
  public:
   using Clock = std::chrono::steady_clock;
   ComparisonClock(const std::vector<ComparisonJob>& jobs, bool beyond_double)
       : jobs_(jobs), beyond_double_(beyond_double) {}
   void reference_spent(double seconds, double part);
-  /// @param part of the job that runs, in [0, 1]
+  /// @param part finished fraction of the running job, in [0, 1]
   ComparisonProgress look(const ComparisonJob* running, double part);
 
  private:

@@ -1,4 +1,4 @@
-// A comparison for people and for spreadsheets.
+// Writes a comparison as a plain table and as CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ std::string time_text(double seconds) {
   return fmt::format("{:.3g} s", seconds);
 }
 
-/// A field of a CSV file.   [RFC4180]
+/// Quotes a text for a field of a CSV file if necessary.   [RFC4180]
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -27,13 +27,14 @@ std::string field(const std::string& text) {
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : ""; }
 std::string number(const Magnitude& x) { return x.text.empty() ? number(x.value) : x.text; }
 
-/// An error that is not above what the reference is uncertain by may be twice that, or nothing.
+/// An error that is not above the uncertainty of the reference is written as a bound: the true error is at most twice
+/// the uncertainty.
 std::string error_text(const ComparisonPoint& p, const Magnitude& uncertainty) {
   if (p.error.value == 0 && p.error.text.empty() && !p.below_uncertainty) return "0";
   if (!p.below_uncertainty) return readable(p.error, 2);
   return "< " + readable(Magnitude(2 * uncertainty.value));
 }
-/// Whose evaluations are those of a series, not of a force.
+/// Returns whether the evaluations of the method are coefficients of a series instead of forces.
 bool is_series(const ComparisonPoint& p) {
   return !find_method(p.method.substr(0, p.method.find('('))).family->counts_forces;
 }
@@ -45,7 +46,8 @@ std::string comparison_table(const Comparison& c) {
   std::string last;
   int order = 0;
   for (const ComparisonPoint& p : c.points) {
-    const bool is_told = p.method == last && p.order == order;  // taylor takes its order from the tolerance
+    // the order of taylor depends on the tolerance, so it may differ within a method
+    const bool is_told = p.method == last && p.order == order;
     std::vector<std::string> line{p.method == last ? "" : p.method, is_told ? "" : std::to_string(p.order),
                                   p.tolerance ? fmt::format("tol {:.0e}", *p.tolerance) : fmt::format("{:.6g}", p.dt),
                                   std::to_string(p.steps)};

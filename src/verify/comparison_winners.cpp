@@ -1,4 +1,4 @@
-// Which method comes to an error most cheaply, between the steps of each.
+// Finds the method that reaches an error with the least work, by interpolation between the step sizes of each method.
 #include <algorithm>
 #include <cmath>
 
@@ -13,10 +13,11 @@ struct Curve {
   std::vector<const ComparisonPoint*> points;
 };
 
-/// The least log10(work) with which a method reaches log10(error) = level: that of a point that is there or below, or
-/// where a segment between points comes down to it. A method whose coarsest step is below the level counts with that.
+/// Returns the least log10(work) with which a method reaches log10(error) = level: that of a point at or below the
+/// level, or that of the place at which a segment between two points reaches it. If the largest step of a method is
+/// already below the level, its point counts.
 std::optional<double> work_for(const Curve& method, double level, bool by_time, double floor) {
-  std::vector<std::pair<double, double>> curve;  // work, error
+  std::vector<std::pair<double, double>> curve;  // pairs of log10(work) and log10(error)
   for (const ComparisonPoint* p : method.points) {
     const double work = by_time ? p->seconds : p->evaluations();
     if (work > 0) curve.emplace_back(std::log10(work), std::max(p->error.log10, floor));
@@ -25,25 +26,25 @@ std::optional<double> work_for(const Curve& method, double level, bool by_time, 
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const auto [w1, e1] = curve[i];
     if (e1 > level) continue;
-    if (i == 0 || std::isinf(e1)) return w1;  // there is no way down to 0
-    const auto [w0, e0] = curve[i - 1];       // above the level, or this were not the first
+    if (i == 0 || std::isinf(e1)) return w1;  // the error is 0, so there is nothing to interpolate
+    const auto [w0, e0] = curve[i - 1];       // its error is above the level, otherwise the loop had ended there
     return w0 + (w1 - w0) * (e0 - level) / (e0 - e1);
   }
   return std::nullopt;
 }
 
-/// 10^level, as a text where the doubles end.
+/// 10^level, as text if it is outside the range of double.
 Magnitude power_of_ten(int level) { return Magnitude("1e" + std::to_string(level)); }
 
 }  // namespace
 
 std::vector<ComparisonWinner> winners(const Comparison& comparison) {
-  // An error that is not well above the uncertainty of the reference is none.
+  // An error that is not well above the uncertainty of the reference does not count.
   const double floor = comparison.reference.uncertainty.log10;
   const double told = floor + std::log10(4.0);
-  constexpr double size = 0;  // errors are relative: what is as large as the motion itself approximates nothing
+  constexpr double size = 0;  // log10 of a relative error of 1; with a larger error a method approximates nothing
   std::vector<Curve> methods;
-  // Powers of ten, within what mp(100000) can hold: an error of exactly 0 is none of them.
+  // Levels are powers of ten in the range of mp(100000). An error of exactly 0 gives no level.
   constexpr int least = -100000;
   int highest = least;
   int lowest = 400;

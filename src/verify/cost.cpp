@@ -5,7 +5,7 @@
 namespace hamflow {
 
 CostMeasurement measure_cost(const StepMap& map, const Region& region) {
-  // A first step may do more than the later ones, so that steps 9 to 136 are counted.
+  // Steps 9 to 136 are counted, because the first steps may do more than the later ones.
   constexpr std::int64_t skipped = 8;
   constexpr std::int64_t counted = 128;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -18,7 +18,7 @@ CostMeasurement measure_cost(const StepMap& map, const Region& region) {
                         per_step(before.hessian, after.hessian), per_step(before.linear_solves, after.linear_solves)};
 
   bool explicit_step = after.linear_solves == 0 && after.steps == 0;
-  if (!done) {  // what was solved was solved, but steps that were not taken show nothing
+  if (!done) {  // solves that were counted prove an implicit step, but steps that were not taken prove nothing
     found = {unknown, unknown, unknown, unknown, explicit_step ? Finding::unclear : Finding::no, unknown};
     found.reason = fmt::format("one of the first {} steps failed", skipped + counted);
     return found;

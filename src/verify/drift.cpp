@@ -45,7 +45,7 @@ double increments_p_value(const std::vector<double>& energies) {
   const double variance_of_mean = squares / static_cast<double>(blocks - 1) / static_cast<double>(blocks);
   if (variance_of_mean == 0) return mean == 0 ? 1 : 0;
   const double p = student_p_value(mean / std::sqrt(variance_of_mean), static_cast<int>(blocks) - 1);
-  return p < std::numeric_limits<double>::min() ? 0 : p;  // of a number below all normal ones the digits are lost
+  return p < std::numeric_limits<double>::min() ? 0 : p;  // a subnormal number has lost digits
 }
 
 DriftClass drift_class(double p_value, double growth_exponent) {
@@ -54,7 +54,7 @@ DriftClass drift_class(double p_value, double growth_exponent) {
 }
 
 namespace {
-/// The exponent of the RMS of H - H0 over starts and over the blocks of the windows [2^j, 2^(j+1)).
+/// Returns the growth exponent of the RMS of H - H0 over all starts and over the blocks of the windows [2^j, 2^(j+1)).
 double growth_exponent(const std::vector<std::vector<double>>& energies) {
   std::vector<double> log_time;
   std::vector<double> log_error;
@@ -64,7 +64,7 @@ double growth_exponent(const std::vector<std::vector<double>>& energies) {
     for (const auto& series : energies) {
       for (std::size_t b = begin; b < 2 * begin; ++b) squares += std::pow(series[b] - series.front(), 2);
     }
-    if (squares == 0) continue;  // not one bit has changed
+    if (squares == 0) continue;  // no energy has changed
     log_time.push_back(std::log2(static_cast<double>(begin)));
     log_error.push_back(std::log2(squares / static_cast<double>(begin * energies.size())) / 2);
   }
@@ -84,7 +84,8 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, std::nullopt};
   }
-  // The smallest of m p-values, times m (Bonferroni): a drift whose sign depends on the start is found too.
+  // The smallest of m p-values is multiplied by m (Bonferroni correction). So a drift whose sign depends on the start
+  // is found, too.
   double smallest = 1;
   for (const auto& series : energies) smallest = std::min(smallest, increments_p_value(series));
   found.p_value = std::min(1.0, smallest * static_cast<double>(energies.size()));

@@ -1,4 +1,4 @@
-// Classifies the drift of a single run from its blocks.
+// Finds the drift class of a single run from the energies of its blocks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace hamflow {
 
 namespace {
 
-/// S(m), the mean square of changes over m blocks.
+/// Structure function S(m), the mean square of changes over m blocks.
 double structure_function(const std::vector<double>& x, std::size_t lag) {
   double sum = 0;
   for (std::size_t i = 0; i + lag < x.size(); ++i) sum += (x[i + lag] - x[i]) * (x[i + lag] - x[i]);
   return sum / static_cast<double>(x.size() - lag);
 }
 
-/// var(ln S(m)) for a walk of `blocks` increments.
+/// Variance of ln S(m) for a random walk of `blocks` increments.
 double variance_of_log(std::size_t lag, std::size_t blocks) {
   const double m = static_cast<double>(lag);
   return 2 * (2 * m * m + 1) / (3 * m * static_cast<double>(blocks));
@@ -31,7 +31,7 @@ struct Growth {
   double uncertainty = 0;
 };
 
-/// @param x deviations from the start, at most 1 in size
+/// @param x deviations from the start, in [-1, 1]
 Growth growth(const std::vector<double>& x) {
   const std::size_t blocks = x.size() - 1;
   const std::size_t longest = blocks / 2;
@@ -56,7 +56,7 @@ Growth growth(const std::vector<double>& x) {
     weight.push_back(1 / variance_of_log(lag, blocks));
     last = lag;
   }
-  if (log_lag.size() < 2) return {};  // not one bit has changed
+  if (log_lag.size() < 2) return {};  // no energy has changed
   double all = 0;
   double mean_x = 0;
   double mean_y = 0;
@@ -73,14 +73,14 @@ Growth growth(const std::vector<double>& x) {
     xy += weight[i] * (log_lag[i] - mean_x) * (log_s[i] - mean_y);
     xx += weight[i] * (log_lag[i] - mean_x) * (log_lag[i] - mean_x);
   }
-  // Lags share their increments, so that the errors of the points are not independent. The constant is measured, on
+  // Lags share their increments, so the errors of the points are not independent. The constant was measured on random
   // walks of 32 to 128 increments (tests/unit/drift_test.cpp).
   constexpr double measured = 0.9;
   return {xy / xx / 2, measured * std::sqrt(static_cast<double>(shortest) / static_cast<double>(blocks))};
 }
 
-/// The probability of so few positive, or so few negative, increments among those that are not 0: both tails of the
-/// binomial distribution for 1/2.
+/// Returns the probability of at most this many positive, or negative, increments among those that are not 0: both
+/// tails of the binomial distribution for 1/2.
 double sign_test(const std::vector<double>& x) {
   int up = 0;
   int down = 0;
@@ -98,11 +98,13 @@ double sign_test(const std::vector<double>& x) {
 
 /// The straight line through a series, and statistics of the residuals.
 struct Trend {
-  double size = 0;       // change along the line over the whole series, divided by the deviation of the residuals
-  double rank = 0;       // Spearman's rank correlation with time, which does not depend on the size of rare excursions
-  double roughness = 0;  // of the residuals, S(1)/(2 variance): 1 for independent values, about 8/B for a walk
-  double correlation = 0;  // of neighbouring increments of the residuals: -1/2 independent, 0 a walk, 1 smooth
-  double wandering = 0;    // of the means of eight parts, see wandering()
+  double size = 0;  // change along the line over the whole series, divided by the deviation of the residuals
+  // Spearman's rank correlation with time, which does not depend on the height of rare excursions
+  double rank = 0;
+  double roughness = 0;  // S(1)/(2 variance) of the residuals: 1 for independent values, about 8/B for a random walk
+  // of neighbouring increments of the residuals: -1/2 independent values, 0 random walk, 1 smooth
+  double correlation = 0;
+  double wandering = 0;  // variation between the means of eight parts, see wandering()
 };
 
 std::vector<double> ranks(const std::vector<double>& x) {
@@ -113,7 +115,8 @@ std::vector<double> ranks(const std::vector<double>& x) {
   for (std::size_t i = 0; i < order.size();) {
     std::size_t end = i;
     while (end < order.size() && x[order[end]] == x[order[i]]) ++end;
-    for (std::size_t k = i; k < end; ++k) rank[order[k]] = static_cast<double>(i + end - 1) / 2;  // ties share theirs
+    // equal values share the mean of their ranks
+    for (std::size_t k = i; k < end; ++k) rank[order[k]] = static_cast<double>(i + end - 1) / 2;
     i = end;
   }
   return rank;
@@ -139,8 +142,9 @@ double increment_correlation(const std::vector<double>& x) {
   return now > 0 ? (structure_function(x, 2) - 2 * now) / (2 * now) : 0;
 }
 
-/// The variance between the means of eight parts of a series, divided by its value for independent values: Fisher's F
-/// with 7 and B - 8 degrees of freedom. It is the most sensitive test for a walk beneath noise.
+/// Returns the variance between the means of eight parts of a series, divided by its expected value for independent
+/// values: Fisher's F with 7 and B - 8 degrees of freedom. It is the most sensitive test for a random walk beneath
+/// noise.
 double wandering(const std::vector<double>& x) {
   constexpr std::size_t parts = 8;
   const std::size_t length = x.size() / parts;
@@ -181,9 +185,9 @@ Trend trend(const std::vector<double>& x) {
   return found;
 }
 
-/// Periods of an oscillation of the energy that the blocks resolve, so that its increments are correlated. (A walk
-/// turns back, too, but its increments are not correlated.) Ranks are used, because the peak at a pericentre of an
-/// eccentric orbit is shorter than a block, so that its sampled height is random.
+/// Returns the periods of an oscillation of the energy that the blocks resolve: its increments are correlated, whereas
+/// those of a random walk are not. Turning points are counted in ranks, because the peak at a pericentre of an
+/// eccentric orbit is shorter than a block, so its sampled height is random.
 std::optional<double> periods_of(const std::vector<double>& x, double correlation) {
   constexpr double resolved = 0.4;
   if (correlation < resolved) return std::nullopt;
@@ -194,39 +198,41 @@ std::optional<double> periods_of(const std::vector<double>& x, double correlatio
   return seen ? std::optional<double>(seen->periods) : std::nullopt;
 }
 
-// Limits between the classes, set by the confusion table (tools/confusion_table.py), whose quantiles HACKING.md shows.
-constexpr double clear_trend = 3;   // of Trend::size: an oscillation of two periods has less than 2
-constexpr double clear_rank = 0.7;  //
+// Limits between the classes. The confusion table (tools/confusion_table.py) justifies them; HACKING.md shows its
+// quantiles.
+constexpr double clear_trend = 3;   // Trend::size; an oscillation of two periods has less than 2
+constexpr double clear_rank = 0.7;  // of Trend::rank
 constexpr double rank_of_a_drift = 0.9;
 constexpr double usual_in_walks = 15;  // limits of trend_of_walks()
 constexpr double rare_in_walks = 30;
 constexpr double no_trend = 1;               // independent values have at most 0.3, rare resonances 0.8
 constexpr double no_rank = 0.3;              // 3.4/sqrt(128): four standard deviations of independent values
-constexpr double bounded_below = 0.2;        // growth exponent, or
-constexpr double bounded_below_rough = 0.3;  // if the residuals are rougher than those of any walk
+constexpr double bounded_below = 0.2;        // growth exponent of the class bounded,
+constexpr double bounded_below_rough = 0.3;  // the same if the residuals are rougher than those of any random walk
 constexpr double rougher_than_walks = 0.3;
 constexpr double walk_above = 0.35;
 constexpr double walk_below = 0.65;
 constexpr double roughest_walk = 0.2;
-constexpr double steady_means = 3;  // of F(7, B - 8), which exceeds it once in 150 to 250 cases
+constexpr double steady_means = 3;  // F(7, B - 8) exceeds it once in 150 to 250 cases
 constexpr double rare_means = 6;    // exceeded once in 10^5 cases; needed for an error that does not grow
-constexpr double white = 0.25;      // correlation of a walk's increments: three standard deviations for 128
+constexpr double white = 0.25;      // correlation of a random walk's increments: three standard deviations for 128
 
-/// The trend relative to the trend that a walk, with or without noise, has by chance. For a walk of variance w beneath
-/// noise of variance n this is about sqrt(w/(w + n)), which 1 - roughness measures. Of 20 000 walks of 64 to 255 blocks
-/// beneath any noise, 1 in 100 was above 16 and 1 in 10 000 above 30 (a walk whose rank correlation with time is above
-/// 0.9).
+/// Returns the trend relative to the trend that a random walk, with or without noise, has by chance. For a walk of
+/// variance w beneath noise of variance n that chance trend is about sqrt(w/(w + n)), which 1 - roughness measures. Of
+/// 20 000 walks of 64 to 255 blocks beneath any noise, 1 in 100 was above 16 and 1 in 10 000 above 30 (walks whose rank
+/// correlation with time is above 0.9).
 double trend_of_walks(const Trend& t) { return t.size / std::sqrt(std::max(1 - t.roughness, 0.15)); }
 
-/// Whether the second half of the run stays further from the start than half of the largest deviation.
+/// Returns whether all deviations in the second half of the run are larger than half of the largest deviation.
 bool stays_away(const std::vector<double>& deviations, double largest) {
   return std::all_of(deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2), deviations.end(),
                      [&](double x) { return std::abs(x) > largest / 2; });
 }
 
-/// Whether both halves of the run have a trend in the same direction. A single close encounter only leaves a jump.
+/// Returns whether both halves of the run have a trend in the same direction. A single close encounter only leaves a
+/// jump in one half.
 bool goes_on_throughout(const std::vector<double>& x) {
-  constexpr double least = 1.0 / 8;  // of the slope of the whole: a drift may slow down
+  constexpr double least = 1.0 / 8;  // fraction of the overall slope, because a drift may slow down
   const auto slope = [&](std::size_t begin, std::size_t end) {
     std::vector<double> time(end - begin);
     std::iota(time.begin(), time.end(), 0.0);
@@ -239,8 +245,8 @@ bool goes_on_throughout(const std::vector<double>& x) {
   return std::min(sign * slope(0, middle), sign * slope(middle, x.size())) > least * sign * whole;
 }
 
-/// Whether a trend contradicts a symplectic method: it is too large for one rounding to the same side in each
-/// operation, and too small for a step size at which the method breaks down.
+/// Returns whether a trend cannot last, because the method is symplectic: it is too large for roundings to the same
+/// side in every operation, and too small for a step size at which the method breaks down.
 bool must_turn_back(const EnergySeries& series, double largest) {
   constexpr double resolved = 1.0 / 16;
   return series.symplectic && largest > 16 * series.rounding * (1 + series.roundings) &&
@@ -252,7 +258,7 @@ struct Conclusion {
   std::string reason;
 };
 
-/// Rounds down, so that the text of a number below a limit is below the limit, too.
+/// Rounds down, so that a number below a limit is also printed as a number below the limit.
 double rounded_down(double x, double unit) { return std::floor(x / unit) * unit; }
 
 Conclusion undecided(std::string reason) { return {std::nullopt, std::move(reason)}; }
@@ -289,7 +295,7 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   }
   if (largest > series.scale) return undecided("the energy error is above the scale of the energy itself");
   const std::string grows = fmt::format("the error grows like t^{:.2f}", e);
-  const double walk = 16 * series.rounding * (1 + std::sqrt(series.roundings));  // as for momentum maps
+  const double walk = 16 * series.rounding * (1 + std::sqrt(series.roundings));  // the same bound as for momentum maps
   const bool like_walk =
       e > walk_above && e < walk_below && t.roughness < roughest_walk && std::abs(t.correlation) < white;
   const auto random_walk = [&](const std::string& how) -> Conclusion {
@@ -312,7 +318,7 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   const bool rounding_alone = largest <= walk && t.correlation < white;
   if (rounding_alone && t.wandering > steady_means && e < walk_below && trend_of_walks(t) < usual_in_walks) {
     const std::string wander = "errors at rounding level vary from part to part of the run";
-    // An error that does not grow needs stronger evidence, because parts as long as a few periods always differ.
+    // If the error does not grow, stronger evidence is needed, because parts as long as a few periods always differ.
     if (e < bounded_below && !(t.wandering > rare_means && *found.periods >= RunDrift::periods_to_be_told)) {
       return undecided(wander + ", but do not grow; a longer run would decide");
     }
@@ -326,9 +332,9 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   if (!grows_not) {
     return undecided(grows + fmt::format(" +- {:.2f}, which is between the classes", found.growth_uncertainty));
   }
-  // At this error level a random walk or a trend of the roundings would not be visible.
-  // Roundings that grow with a coordinate sum up like t^(3/2), to 64 times as much in a run 16 times as long; `walk`
-  // already includes a factor of 16.
+  // At this error level a random walk or a trend of the roundings would not be visible. Roundings that grow with a
+  // coordinate sum up like t^(3/2), to 64 times as much in a run 16 times as long; `walk` already includes a factor of
+  // 16.
   if (largest <= std::max(32 * series.rounding, series.rounding_grows ? 4 * walk : walk / 4)) {
     return undecided("errors at rounding level; only a longer run can show how they sum up");
   }
@@ -379,8 +385,9 @@ RunDrift classify_run(const EnergySeries& series) {
   } else {
     std::vector<double> x;  // scaled, so that squares neither overflow nor underflow
     for (const double h : series.deviations) x.push_back(largest > 0 ? h / largest : 0);
-    // The test uses the smallest number of blocks: an oscillation of amplitude A changes an increment by at most 2 A
-    // for any length of the block, a drift grows with the length, and for a walk 32 blocks are nearly as good as 128.
+    // The test uses the smallest number of blocks. An oscillation of amplitude A changes an increment by at most 2 A
+    // for any length of the block, whereas a drift grows with the length. For a random walk 32 blocks are nearly as
+    // good as 128.
     const std::size_t stride = (x.size() - 1) / RunDrift::fewest_blocks;
     std::vector<double> ends;
     for (std::size_t i = 0; i < x.size(); i += stride) ends.push_back(x[i]);

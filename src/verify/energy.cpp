@@ -12,16 +12,17 @@
 namespace hamflow {
 
 namespace {
-constexpr std::uint64_t starts = 32;  // the growth exponent of a random walk is then known to about 0.06
+constexpr std::uint64_t starts = 32;  // with 32 starts the growth exponent of a random walk is known to about 0.06
 constexpr int coarse_blocks = 511;    // nine dyadic windows
 constexpr std::int64_t block_steps = 64;
 constexpr int fine_factor = 128;
 constexpr int fine_blocks = 31;
 constexpr std::int64_t fine_block_steps = 1024;
 
-/// What rounding explains: H is evaluated from rounded coordinates, a few units; increments of a step are rounded
-/// relatively to themselves, h |v F| eps, and add up like the square root of their number. 16 units of each. The time
-/// in which forces change the energy by its own size is taken to be eight steps of the region, a sixth of a period.
+/// Returns the energy error that rounding explains. H is evaluated from rounded coordinates, which costs a few units.
+/// The increment of a step is rounded relative to itself, h |v F| eps, and these errors add up like the square root of
+/// their number. 16 units of each are allowed. Forces are taken to change the energy by its own size within eight steps
+/// of the region, a sixth of a period.
 double rounding_level(const Region& region, double h, double steps) {
   return 16 * epsilon * (1 + h / (8 * region.step) * std::sqrt(steps));
 }
@@ -32,7 +33,7 @@ double scale(const StepMap& map, const Region& region) {
   return largest;
 }
 
-/// max |H - H0|; infinite when a run broke down.
+/// Returns max |H - H0|; infinite if a run broke down.
 double largest_error(const std::vector<double>& energies, std::size_t expected) {
   if (energies.size() < expected) return std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -44,11 +45,11 @@ double largest_error(const std::vector<double>& energies, std::size_t expected) 
   return largest;
 }
 
-/// Runs of which each has so many blocks, and what of them came to their end.
+/// Counts runs with a given number of blocks, and those that ended early.
 struct Ended {
   int runs = 0;
   int early = 0;
-  std::size_t first = 0;  // blocks of the shortest
+  std::size_t first = 0;  // number of blocks of the shortest run
   bool finite = true;
 
   void look(const std::vector<double>& energies, std::size_t expected) {
@@ -70,7 +71,8 @@ struct Ended {
   }
 };
 
-/// The level over a fixed time of 128 steps of the region, looked at once in each of them whatever h is.
+/// Returns the energy error over a fixed time of 128 steps of the region, sampled once in each of these steps whatever
+/// h is.
 double short_level(const StepMap& map, const Region& region, double h) {
   const auto per_look = std::max<std::int64_t>(1, std::llround(region.step / h));
   const int looks = static_cast<int>(std::lround(128 * region.step / (static_cast<double>(per_look) * h)));
@@ -82,9 +84,10 @@ double short_level(const StepMap& map, const Region& region, double h) {
   return largest;
 }
 
-/// The step with which the error is measured: that of the region. Where an implicit method of high order does not claim
-/// to conserve the energy its defect may lie below the rounding of that step: then the first of twice, four times, ..
-/// 16 times it, a third of a period, that shows a defect. Longer ones lead to roots from which orbits escape.
+/// Returns the step size with which the energy error is measured, normally that of the region. For an implicit method
+/// of high order that does not claim to conserve the energy, the defect may be below rounding at that step size. Then
+/// the first of twice, four times, .. 16 times that step size (a third of a period) is taken at which a defect shows.
+/// With larger steps, Newton's iteration may find roots from which orbits escape.
 double telling_step(const StepMap& map, const Region& region, double unit) {
   const MethodInfo claims = map.claims();
   if (claims.explicit_step || claims.energy_conserving != Conservation::no) return region.step;
@@ -92,13 +95,14 @@ double telling_step(const StepMap& map, const Region& region, double unit) {
     leave_if_stopped();
     const double h = std::ldexp(region.step, k);
     const double level = short_level(map, region, h) / unit;
-    if (!(level < 1)) break;  // no step that long
+    if (!(level < 1)) break;  // this step is too large
     if (level > 0x1p10 * rounding_level(region, h, 128 * region.step / h)) return h;
   }
   return region.step;
 }
 
-/// The exponent of the level in h, from the finest four of steps between 4 h and h/8 whose error is not rounding.
+/// Returns the exponent of the energy error in h, from the four smallest step sizes between 4 h and h/8 at which the
+/// error is above rounding.
 double step_exponent(const StepMap& map, const Region& region, double telling, double unit) {
   std::vector<double> log_step;
   std::vector<double> log_level;
@@ -106,9 +110,9 @@ double step_exponent(const StepMap& map, const Region& region, double telling, d
     leave_if_stopped();
     const double h = std::ldexp(telling, k);
     const double level = short_level(map, region, h) / unit;
-    if (!(level < 1)) continue;  // no step that large
+    if (!(level < 1)) continue;  // this step is too large
     if (level < 16 * rounding_level(region, h, 128 * region.step / h))
-      break;  // less than four binary digits are signal
+      break;  // the error has less than four binary digits above rounding
     log_step.push_back(std::log2(h));
     log_level.push_back(std::log2(level));
   }
@@ -118,10 +122,11 @@ double step_exponent(const StepMap& map, const Region& region, double telling, d
   return log_step.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : fitted_slope(log_step, log_level);
 }
 
-/// H after each block. An orbit whose period and whose blocks are nearly in step is seen at a phase that moves slowly:
-/// its bounded oscillation looks like a drift. Blocks of another length show it elsewhere, and a drift again.
+/// Returns H after each block. If the length of a block is nearly a multiple of the period, the orbit is sampled at a
+/// phase that moves slowly, and its bounded oscillation looks like a drift. Blocks of another length show a real drift
+/// again, but not an oscillation.
 std::vector<double> watched(const StepMap& map, const State<double>& z, double h) {
-  constexpr std::int64_t other_steps = 59;  // prime
+  constexpr std::int64_t other_steps = 59;  // a prime number
   std::vector<double> energies = map.energies(z, h, coarse_blocks, block_steps);
   const auto drifts = [](const std::vector<double>& series) {
     return series.size() == coarse_blocks + 1 &&
@@ -146,7 +151,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
     ended.look(energies.back(), coarse_blocks + 1);
     found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
   }
-  // A step that nothing is solved for ends a run by leaving the finite numbers, and no energy that is kept lets it.
+  // A run with an explicit step ends early only if its numbers become infinite, so its energy was not conserved.
   const bool leaves = map.claims().explicit_step;
   const double early_level = leaves ? std::numeric_limits<double>::infinity() : unknown;
   if (ended.early > 0) found.level = early_level;
@@ -158,7 +163,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
 
   const double fine_step = region.step / fine_factor;
   Ended fine_ended;
-  for (std::uint64_t k = 0; k < starts / 4; ++k) {  // for a level, a few are enough
+  for (std::uint64_t k = 0; k < starts / 4; ++k) {  // a few starts are enough for a level
     leave_if_stopped();
     const auto fine = map.energies(random_state(region, k), fine_step, fine_blocks, fine_block_steps);
     fine_ended.look(fine, fine_blocks + 1);
@@ -177,9 +182,9 @@ std::optional<Conservation> EnergyMeasurement::conserving(int order, bool even_i
     if (std::isnan(fine_level) && drift.drift != DriftClass::linear) return std::nullopt;
     return fine_level <= fine_rounding && drift.drift != DriftClass::linear ? Conservation::yes : Conservation::no;
   }
-  // A method of order r without any conservation has level ~ h^r; with s > k quadrature points cg(k) has h^(2 s),
-  // 2 s >= r + 2. What a quadrature leaves has no direction where H is even in p: forth and back it cancels. Whether it
-  // grows with time is not judged: near a resonance, and in chaos, it does.
+  // A method of order r without any conservation has a level ~ h^r; cg(k) with s > k quadrature points has h^(2 s),
+  // where 2 s >= r + 2. If H is even in p, the error of the quadrature has no preferred direction, because it cancels
+  // in a reversal. Growth with time is not judged here: near a resonance and in chaos the error does grow.
   if (even_in_momenta && drift.p_value < DriftStatistics::level) return Conservation::no;
   return step_exponent >= order + 1.5 ? Conservation::up_to_quadrature : Conservation::no;
 }

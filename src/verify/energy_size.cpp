@@ -34,8 +34,8 @@ RunEnds ends_of(const Request& request, const Simulation& simulation) {
   return ends;
 }
 
-/// A sixteenth of the virial at the start, since of a high power V of r its r dV/dr is many times V. Not of the end:
-/// beside what a run has blown up to, its error before would be a rounding.
+/// A sixteenth of the virial at the start is used, because for a high power V of r, r dV/dr is many times V. The end is
+/// not used: compared with the energy to which a run has blown up, all earlier errors would look like rounding.
 double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale) {
   if (ends.start.q.empty()) return scale;
   const Texts all = complete(problem.info, request.parameters);
@@ -45,14 +45,14 @@ double size_of_energy(const Request& request, const ProblemEntry& problem, const
 }
 
 namespace {
-/// |dH/dq_i| by a difference of H.
+/// Returns |dH/dq_i| from a difference of H.
 /// @param v dH/dp
 double slope(const ProblemEntry& problem, const Texts& all, const std::vector<double>& q, const std::vector<double>& p,
              const std::vector<double>& v, std::size_t i, double dt) {
   double fastest = 0;
   for (const double x : v) fastest = std::max(fastest, std::abs(x));
   const double in_a_step = std::abs(dt) * (v[i] != 0 ? std::abs(v[i]) : fastest);
-  const double moved = in_a_step > 0 ? 0x1p-6 * in_a_step : 0x1p-26 * std::abs(q[i]);  // all are at rest
+  const double moved = in_a_step > 0 ? 0x1p-6 * in_a_step : 0x1p-26 * std::abs(q[i]);  // all momenta are 0
   std::vector<double> above = q;
   std::vector<double> below = q;
   above[i] += moved;
@@ -65,7 +65,7 @@ double slope(const ProblemEntry& problem, const Texts& all, const std::vector<do
 double rounding_of_state(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double dt) {
   if (ends.start.q.empty()) return 0;
   const Texts all = complete(problem.info, request.parameters);
-  const std::vector<double>& q = ends.start.q;  // not those of the end, which a run may have blown up to
+  const std::vector<double>& q = ends.start.q;  // not the end, because the run may have blown up
   const std::vector<double>& p = ends.start.p;
   const std::vector<double> v = problem.gradient(all, q, p).by_p;
   double sum = 0;
@@ -80,7 +80,8 @@ double rounding_of_growing(const Request& request, const ProblemEntry& problem, 
   if (ends.start.q.empty()) return 0;
   const Texts all = complete(problem.info, request.parameters);
   const std::vector<double>& p = ends.end.p;
-  // The force at the end alone may be 0 by chance, or that of a close encounter: the median of states on the way.
+  // The force at the end may be 0 by chance, or that of a close encounter. Therefore the median over states between
+  // start and end is used.
   constexpr double on_the_way[] = {0.19, 0.43, 0.62, 0.81, 1.0};
   std::vector<std::vector<double>> slopes(growing.size());
   for (const double part : on_the_way) {

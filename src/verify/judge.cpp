@@ -1,4 +1,4 @@
-// Claims against measurements.
+// Compares claims with measurements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace hamflow {
 namespace {
 const char* text(bool claimed) { return claimed ? "yes" : "no"; }
 
-/// Of each problem what was not measured there, and why. @param reason of a Measurement
+/// Lists for each problem what was not measured there, and why. @param reason returns the reason from a Measurement
 std::string reasons(std::span<const Measurement> on, const auto& reason) {
   std::string all;
   for (const Measurement& m : on) {
@@ -27,7 +27,7 @@ PropertyCell because(PropertyCell cell, std::span<const Measurement> on, const a
   return cell;
 }
 
-/// yes when it holds everywhere, no when it fails somewhere.
+/// yes if it holds on every problem, no if it fails on one.
 Finding everywhere(std::span<const Measurement> on, const auto& holds) {
   Finding all = Finding::yes;
   for (const Measurement& m : on) all = std::min(all, holds(m));  // no < unclear < yes
@@ -38,12 +38,12 @@ PropertyCell cell(std::string property, bool claimed, Finding found, std::size_t
   Finding agrees = found == Finding::unclear            ? Finding::unclear
                    : (found == Finding::yes) == claimed ? Finding::yes
                                                         : Finding::no;
-  // On one problem a property may hold by the problem's merit.
+  // On a single problem a property may hold because of the problem.
   if (!claimed && problems == 1) agrees = Finding::yes;
   return {std::move(property), text(claimed), std::string(name(found)), agrees};
 }
 
-/// Of a motion that is not reversed with its momenta nothing can be judged.
+/// If negating the momenta does not reverse the exact motion, nothing can be concluded.
 PropertyCell reversal_cell(std::string property, bool claimed, std::span<const Measurement> on,
                            DefectMeasurement Measurement::*which) {
   std::vector<Measurement> even;
@@ -76,7 +76,8 @@ PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> o
     }
   }
   const auto reason = [](const Measurement& m) { return m.order.reason; };
-  if (exact && !any && agrees == Finding::yes) {  // no order shows; on one problem that may be the problem's merit
+  // all errors are at rounding level; with one problem this may be because of the problem
+  if (exact && !any && agrees == Finding::yes) {
     return {"order", std::to_string(claims.order), "exact", on.size() == 1 ? Finding::yes : Finding::unclear,
             reasons(on, reason)};
   }
@@ -98,10 +99,10 @@ PropertyCell energy_cell(const MethodInfo& claims, std::span<const Measurement> 
                    [](const Measurement& m) { return m.energy.reason; });
   }
   const Conservation claimed = claims.energy_conserving;
-  // Quadrature may be exact to rounding on these problems with this step.
+  // The quadrature may be exact to rounding on these problems with this step size.
   const bool enough = claimed == Conservation::up_to_quadrature ? least >= claimed : least == claimed;
   const bool agrees = enough || (on.size() == 1 && claimed == Conservation::no);
-  // Less than four binary digits above what rounding explains, and not drifting: neither here nor there.
+  // An error less than four binary digits above rounding, without drift, neither confirms nor refutes the claim.
   const bool near = claimed == Conservation::yes && std::all_of(on.begin(), on.end(), [](const Measurement& m) {
                       return m.energy.drift.drift != DriftClass::linear && m.energy.level < 16 * m.energy.rounding &&
                              m.energy.fine_level < 16 * m.energy.fine_rounding;
@@ -116,7 +117,7 @@ PropertyCell forces_cell(const MethodInfo& claims, std::span<const Measurement> 
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
   for (const Measurement& m : on) {
-    const double evaluations = std::max(m.cost.force, m.cost.gradient);  // of a H that is not separable: the gradient
+    const double evaluations = std::max(m.cost.force, m.cost.gradient);  // if H is not separable, gradients count
     if (std::isnan(evaluations)) {
       const bool claimed = claims.forces_per_step > 0;
       return because({"forces per step", claimed ? std::to_string(claims.forces_per_step) : "-", "-",
@@ -133,8 +134,8 @@ PropertyCell forces_cell(const MethodInfo& claims, std::span<const Measurement> 
           !claimed || (least == wanted && most == wanted) ? Finding::yes : Finding::no};
 }
 
-/// Whether every iteration has a tangent of its own, hence converges quadratically: as many second derivatives as first
-/// ones, but for those with which "auto" looks at a solution.
+/// Returns whether every iteration computes its own Jacobian, so that it converges quadratically. Then there are as
+/// many second derivatives as first derivatives, except for those evaluations with which "auto" checks a solution.
 bool linearises(std::span<const Measurement> on) {
   return std::all_of(on.begin(), on.end(),
                      [](const Measurement& m) { return 2 * m.cost.hessian > std::max(m.cost.force, m.cost.gradient); });

@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t most_log_blocks = 256;  // the same as in EnergyBlocks
 constexpr std::uint64_t log_seed = 1686;  // arbitrary but fixed, because the places of the samples affect the result
 
-/// A random place in the first half of a block, from 0 to 1/2. With equidistant samples and blocks of nearly a whole
-/// number of periods an oscillation would look like a drift.
+/// Returns a random place in the first half of a block, from 0 to 1/2. With equidistant samples, nearly a whole number
+/// of periods apart, an oscillation would look like a drift.
 double place_in_block(std::size_t block) { return static_cast<double>(counter_bits(log_seed, block) >> 11) * 0x1p-54; }
 
 void check_finite(const std::vector<double>& numbers, const char* name) {
@@ -49,9 +49,9 @@ void check_log(const std::vector<double>& t, const std::vector<double>& energy, 
   }
 }
 
-/// Whether the times are equidistant up to the rounding of printed numbers.
+/// Returns whether the times are equidistant up to the rounding of printed numbers.
 bool is_equidistant(const std::vector<double>& t) {
-  constexpr double rounded = 1e-3;  // of the spacing
+  constexpr double rounded = 1e-3;  // relative to the spacing
   const double apart = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (std::abs(t[i] - t.front() - static_cast<double>(i) * apart) > rounded * apart) return false;
@@ -59,7 +59,7 @@ bool is_equidistant(const std::vector<double>& t) {
   return true;
 }
 
-/// The indices of one sample in each of up to 256 blocks of equal duration, starting with the first sample.
+/// Returns the indices of one sample in each of up to 256 blocks of equal duration, starting with the first sample.
 std::vector<std::size_t> equidistant_blocks(std::size_t samples) {
   const std::size_t stride = (samples - 1 + most_log_blocks - 1) / most_log_blocks;
   std::vector<std::size_t> chosen{0};
@@ -100,8 +100,8 @@ std::vector<double> ranks_of(const std::vector<double>& x) {
   return ranks;
 }
 
-/// Oscillations of the rate at which the energy changes from block to block, counted in the ranks of the rates. So a
-/// drift has no influence, and the height of rare peaks little.
+/// Counts oscillations of the rate at which the energy changes from block to block, in the ranks of the rates. So a
+/// drift has no influence on the count, and the height of rare peaks has little.
 std::optional<double> periods_of_rate(const std::vector<double>& t, const std::vector<double>& x) {
   std::vector<double> rate;
   for (std::size_t i = 0; i + 1 < x.size(); ++i) rate.push_back((x[i + 1] - x[i]) / (t[i + 1] - t[i]));
@@ -112,7 +112,8 @@ std::optional<double> periods_of_rate(const std::vector<double>& t, const std::v
   return seen ? std::optional<double>(seen->periods) : std::nullopt;
 }
 
-/// The smallest difference of two different energies. For numbers with few digits it is one unit of the last digit.
+/// Returns the smallest difference of two different energies. If the numbers have few digits, it is one unit of the
+/// last digit.
 double smallest_difference(std::vector<double> energy) {
   std::sort(energy.begin(), energy.end());
   double smallest = std::numeric_limits<double>::infinity();
@@ -122,11 +123,11 @@ double smallest_difference(std::vector<double> energy) {
   return std::isfinite(smallest) ? smallest : 0;
 }
 
-/// A straight line by least squares, and the residuals.
+/// Least-squares line, with its residuals.
 struct Line {
   double slope = 0;
-  double slope_error = 0;  // the standard error, for independent values
-  double deviation = 0;    // the standard deviation of the residuals
+  double slope_error = 0;  // standard error, for independent values
+  double deviation = 0;    // standard deviation of the residuals
   std::vector<double> rest{};
 };
 Line fitted_line(const std::vector<double>& t, const std::vector<double>& x) {
@@ -146,7 +147,7 @@ Line fitted_line(const std::vector<double>& t, const std::vector<double>& x) {
   return line;
 }
 
-/// Whether x is a straight line in time, to a ten-thousandth of its change. An oscillation that looks like this,
+/// Returns whether x is a straight line in time, to a ten-thousandth of its change. An oscillation that looks straight,
 /// sin(phi) with |phi| < 1/40, takes more than a hundred times as long as the log.
 bool is_straight(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double straight = 1e-4;
@@ -155,7 +156,7 @@ bool is_straight(const std::vector<double>& t, const std::vector<double>& x) {
   return std::all_of(line.rest.begin(), line.rest.end(), [&](double rest) { return std::abs(rest) < most; });
 }
 
-/// Whether E is a straight line, or log |E| for an energy that decays or grows exponentially.
+/// Returns whether E is a straight line, or log |E| for an energy that decays or grows exponentially.
 bool goes_straight(const std::vector<double>& t, const std::vector<double>& energy) {
   if (is_straight(t, energy)) return true;
   std::vector<double> logarithms;
@@ -166,8 +167,9 @@ bool goes_straight(const std::vector<double>& t, const std::vector<double>& ener
   return is_straight(t, logarithms);
 }
 
-/// Whether the energy is a straight line plus independent noise: neighbouring values of the noise are not correlated,
-/// unlike those of a walk or a slow oscillation, and the mean of each eighth of the log lies on the line.
+/// Returns whether the energy is a straight line plus independent noise. Unlike those of a random walk or a slow
+/// oscillation, neighbouring values of the noise are not correlated, and the mean of each eighth of the log lies on the
+/// line.
 bool is_line_beneath_noise(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double clear_change = 4;  // standard deviations of the noise
   constexpr double most_correlation = 0.2;
@@ -192,7 +194,7 @@ bool is_line_beneath_noise(const std::vector<double>& t, const std::vector<doubl
   return line.deviation > 0;
 }
 
-/// The lines through the four quarters of the log.
+/// Returns the lines through the four quarters of the log.
 std::vector<Line> quarters(const std::vector<double>& t, const std::vector<double>& x) {
   std::vector<Line> all;
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
@@ -203,12 +205,12 @@ std::vector<Line> quarters(const std::vector<double>& t, const std::vector<doubl
   return all;
 }
 
-/// The rate of the drift in a quarter of the log, divided by the rate of the whole; nullopt if they differ only as much
-/// as noise or the change of the energy itself explains. (After a large change the motion is another one, with another
-/// rate.)
-/// @param change of the energy, divided by the scale
+/// Returns the rate of the drift in a quarter of the log, divided by the overall rate. nullopt: the rates differ only
+/// as much as noise or the change of the energy itself explains. (After a large change of the energy the motion
+/// differs, and so does its rate.)
+/// @param change change of the energy, divided by the scale
 std::optional<double> unsteady_rate(const std::vector<double>& t, const std::vector<double>& x, double change) {
-  constexpr double steady = 0.05;  // an oscillation is as straight as this for a fifth of its period
+  constexpr double steady = 0.05;  // a fifth of a period of an oscillation is as straight as this
   constexpr double of_the_change = 16;
   constexpr double errors = 3;
   const double whole = fitted_line(t, x).slope;
@@ -221,7 +223,7 @@ std::optional<double> unsteady_rate(const std::vector<double>& t, const std::vec
   return std::nullopt;
 }
 
-/// Whether the energy changes in one direction throughout a quarter of the log.
+/// Returns whether the energy changes in one direction throughout a quarter of the log.
 bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double errors = 4;
   const std::vector<Line> all = quarters(t, x);
@@ -229,8 +231,9 @@ bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
                      [&](const Line& part) { return std::abs(part.slope) > errors * part.slope_error; });
 }
 
-/// The mean absolute deviation in each of `parts` parts of the log of equal duration. The sampled height of the rare
-/// peaks of an eccentric orbit, which is random, has less influence than on the RMS or the range.
+/// Returns the mean absolute deviation in each of `parts` parts of the log of equal duration. On an eccentric orbit the
+/// sampled height of the rare peaks is random; it influences the mean absolute deviation less than the RMS or the
+/// range.
 std::vector<double> deviations_of_parts(const std::vector<double>& t, const std::vector<double>& x, std::size_t parts) {
   std::vector<double> all;
   const double whole = t.back() - t.front();
@@ -250,7 +253,7 @@ std::vector<double> deviations_of_parts(const std::vector<double>& t, const std:
   return all;
 }
 
-/// A text about the growth of an oscillation of the energy error; empty if it does not grow, or not more than noise
+/// Returns a text that describes how an oscillation of the energy error grows; empty if it grows no more than noise
 /// explains. An amplitude that changes periodically, as in a beat, has no trend.
 std::string growth_of_oscillation(const std::vector<double>& t, const std::vector<double>& x, double periods) {
   constexpr double level = 1e-4;          // significance level of the t-test
@@ -259,8 +262,8 @@ std::string growth_of_oscillation(const std::vector<double>& t, const std::vecto
   constexpr std::size_t coarse = 8;       // at least two periods in each
   const std::size_t parts = periods >= 64 && t.size() >= 256 ? 2 * coarse : coarse;
   const std::vector<double> sizes = deviations_of_parts(t, x, parts);
-  std::vector<double> place;      // amplitudes like exp(ct)
-  std::vector<double> log_place;  // like t^c
+  std::vector<double> place;      // for amplitudes like exp(ct)
+  std::vector<double> log_place;  // for amplitudes like t^c
   std::vector<double> logarithm;
   for (std::size_t k = 0; k < parts; ++k) {
     if (!(sizes[k] > 0)) return {};
@@ -339,7 +342,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
     series.deviations.push_back(energy[i] - energy.front());
   }
   series.periods = periods_of_rate(times, series.deviations);
-  constexpr double parts_over_whole = 4;  // assumed size of kinetic and potential energy relative to the total energy
+  constexpr double parts_over_whole = 4;  // assumed size of kinetic and potential energy, relative to the total energy
   series.rounding = std::max(parts_over_whole * epsilon * largest_energy, smallest_difference(energy) / 2);
   series.roundings = static_cast<double>(t.size() - 1);
   series.scale = found.scale.value_or(largest_energy);
@@ -368,7 +371,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
     found.drift.drift = DriftClass::linear;
     found.drift.reason = "the energy changes at a constant rate, to a ten-thousandth of its change";
   } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&
-             is_line_beneath_noise(t, energy)) {  // more than the sum of roundings to one side explains
+             is_line_beneath_noise(t, energy)) {  // more than roundings to one side explain
     found.drift.drift = DriftClass::linear;
     found.drift.reason = "a straight line beneath independent noise";
   }

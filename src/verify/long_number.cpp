@@ -10,7 +10,7 @@ namespace hamflow {
 
 namespace {
 
-constexpr int of_results = 40;  // digits: of an error, a few would do
+constexpr int of_results = 40;  // digits of an error; a few would suffice
 
 int digits_of(const std::vector<std::string>& numbers) {
   std::size_t longest = 0;

@@ -18,8 +18,8 @@ double dot(const State<double>& a, const State<double>& b) {
   return sum;
 }
 
-/// Generic orthonormal columns of C^n; the real and imaginary parts of one are the q and p of a tangent vector. A
-/// unitary matrix is at once orthogonal and symplectic, and J is multiplication by -i.
+/// Returns generic orthonormal columns of C^n. Real and imaginary part of a column are the q and p of a tangent vector.
+/// A unitary matrix is both orthogonal and symplectic, and J is multiplication by -i.
 std::vector<std::vector<std::complex<double>>> unitary_columns(std::size_t n, std::size_t count, std::uint64_t seed) {
   std::vector<std::vector<std::complex<double>>> columns(count, std::vector<std::complex<double>>(n));
   std::uint64_t drawn = 0;
@@ -53,7 +53,7 @@ TangentFrame::TangentFrame(std::size_t dimension, std::size_t count, std::uint64
     const auto& u = columns[k < dimension ? k : 2 * dimension - 1 - k];
     State<double> vector(2 * dimension);
     for (std::size_t i = 0; i < dimension; ++i) {
-      vector[i] = k < dimension ? u[i].real() : u[i].imag();  // J (q, p) = (p, -q)
+      vector[i] = k < dimension ? u[i].real() : u[i].imag();  // because J (q, p) = (p, -q)
       vector[dimension + i] = k < dimension ? u[i].imag() : -u[i].real();
     }
     vectors_.push_back(std::move(vector));
@@ -121,7 +121,7 @@ namespace {
 
 constexpr std::size_t fewest_blocks = 16;
 
-/// The standard deviation of some numbers.
+/// Standard deviation of some numbers.
 double spread(const std::vector<double>& xs) {
   double mean = 0;
   for (const double x : xs) mean += x / static_cast<double>(xs.size());
@@ -131,27 +131,28 @@ double spread(const std::vector<double>& xs) {
 }
 
 struct ErrorOfMean {
-  double independent = 0;  // as if the blocks were
-  double joined = 0;       // the largest of those of one, two and four joined blocks
-  double continued = 0;    // with the power with which these fall
+  double independent = 0;  // as if the blocks were independent
+  double joined = 0;       // the largest error for single, pairs of and groups of four blocks
+  double continued = 0;    // extrapolated with the power with which these errors decrease
 };
 
-/// Of the mean of correlated blocks.   @param by_level their rates, one, two and four joined
+/// Standard error of the mean of correlated blocks.   @param by_level rates of single blocks, of pairs and of groups of
+/// four
 ErrorOfMean error_of_mean(const std::array<std::vector<double>, 3>& by_level) {
   const auto blocks = static_cast<double>(by_level[0].size());
   ErrorOfMean error;
-  std::array<double, 3> logs{};  // of the spread, by log2 of how many are joined
+  std::array<double, 3> logs{};  // log2 of the standard deviations
   std::array<double, 3> weights{};
   for (std::size_t level = 0; level < by_level.size(); ++level) {
     const double s = spread(by_level[level]);
-    if (!(s > 0)) return {s, s, s};  // 0 or no number
+    if (!(s > 0)) return {s, s, s};  // 0 or NaN
     const double of_level = s / std::sqrt(blocks / std::exp2(level));
     if (level == 0) error.independent = of_level;
     error.joined = std::max(error.joined, of_level);
     logs[level] = std::log2(s);
     weights[level] = static_cast<double>(by_level[level].size() - 1);
   }
-  // The line of least squares through the three, which falls by 1/2 where blocks are independent.
+  // Least-squares line through the three logarithms. Its slope is -1/2 for independent blocks.
   const double sum = weights[0] + weights[1] + weights[2];
   const double x = (weights[1] + 2 * weights[2]) / sum;
   const double y = (weights[0] * logs[0] + weights[1] * logs[1] + weights[2] * logs[2]) / sum;
@@ -231,14 +232,14 @@ Verdict TangentWatch::observe(const Frame& frame) {
     next = followed_ ? taken(steps) : 0;
     followed_ = next > 0;
   }
-  z_.assign(frame.q.begin(), frame.q.end());  // of the run itself, to the bit
+  z_.assign(frame.q.begin(), frame.q.end());  // state of the run itself, bit for bit
   z_.insert(z_.end(), frame.p.begin(), frame.p.end());
   at_ = frame.step;
   due_ = at_ + next;
   return Verdict::go_on;
 }
 
-/// A longer run would not look where this one ends.
+/// Keeps the state before the last observation, because a longer run would not observe at the end of this one.
 void TangentWatch::keep_before_the_end() {
   Writer ar;
   fields(ar);

@@ -11,10 +11,10 @@
 namespace hamflow {
 
 namespace {
-constexpr std::uint64_t seed = 20100617;  // any number: fixed, so that a measurement can be repeated
+constexpr std::uint64_t seed = 20100617;  // arbitrary but fixed, so that a measurement can be repeated
 
-/// Bodies around the origin, at rest as a whole. Otherwise they leave it, and their coordinates round by more and more:
-/// the energy of any method then walks like t^1.5.
+/// Moves bodies so that their centre of mass is at rest at the origin. Otherwise they move away, their coordinates
+/// round by more and more, and the energy of any method walks like t^1.5.
 State<double> in_barycentre(const Region& region, const State<double>& z) {
   const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;
@@ -31,7 +31,7 @@ State<double> in_barycentre(const Region& region, const State<double>& z) {
 }
 }  // namespace
 
-/// Where there are constraints, on them.
+/// Moves a state onto the constraints, if there are any.
 static State<double> onto_constraints(const Region& region, const State<double>& z) {
   const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;
@@ -61,7 +61,7 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
     if (region.constrained) region.centre = onto_constraints(region, region.centre);
     return region;
   }
-  // The default start, or any state when there is none, moved a little: no coordinate at rest.
+  // The centre is the default start, or any state if there is none, moved a little so that no coordinate is at rest.
   const std::size_t dimension = entry.dimension > 0 ? entry.dimension : entry.info.default_q.size();
   if (dimension == 0) throw Error(problem + " has no fixed size, and declares neither a region nor a default start");
   for (std::size_t i = 0; i < 2 * dimension; ++i) {
@@ -87,7 +87,7 @@ std::optional<Region> region_at_walls(const std::string& problem) {
 }
 
 namespace {
-/// With sub-steps of its own a step has no order.
+/// Replaces options with which the step has no order, such as a tolerance for sub-steps.
 MethodSpec measurable(const MethodSpec& method) {
   const MethodFamily& family = *find_method(method.name).family;
   return {method.name, family.measurable ? family.measurable(method.options) : method.options};
@@ -118,10 +118,10 @@ std::vector<Region> default_regions(const MethodSpec& method) {
   std::vector<Region> usual{region_of("pendulum"), region_of("henon-heiles")};
   std::erase_if(usual, refused);
   if (!usual.empty()) return usual;
-  // Kepler's ellipse has the forces that bodies have, for a tenth of the time.
+  // The Kepler ellipse has forces like those between bodies, and takes a tenth of the time.
   const Region ellipse = region_of("central-force", {{"potential", "kepler"}, {"coordinates", "cartesian"}});
   if (!refused(ellipse)) return {ellipse};
-  // With constraints on two: a property that is not claimed has to be missing on one of several.
+  // With constraints two problems are used, because a property that is not claimed has to be missing on one of several.
   std::vector<Region> found;
   for (const ProblemEntry& entry : problems()) {
     if (!entry.accepts(method)) continue;

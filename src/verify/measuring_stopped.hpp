@@ -1,14 +1,14 @@
-// Leaves a measurement that was asked to stop.
+// Ends a measurement that was asked to stop.
 #pragma once
 
 #include "hamflow/core/stop_question.hpp"
 
 namespace hamflow {
 
-/// Thrown out of measure_method() if a StopQuestion of its thread requests a stop.
+/// Thrown by measure_method() if a StopQuestion of its thread requests a stop.
 struct MeasuringStopped {};
 
-/// To be called between the runs of a measurement, none of which takes long.
+/// Call this between the runs of a measurement, because a single run does not take long.
 inline void leave_if_stopped() {
   if (StopQuestion::stop_requested()) throw MeasuringStopped();
 }

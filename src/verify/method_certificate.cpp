@@ -1,4 +1,4 @@
-// The certificate of a method: drift class, momentum maps, reversal.
+// Makes the certificate of a method: drift class, momentum maps, reversal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace hamflow {
 
 namespace {
-constexpr std::int64_t map_steps = 20000;  // of the order of 300 periods
+constexpr std::int64_t map_steps = 20000;  // about 300 periods
 constexpr std::int64_t return_steps = 1000;
 
 Request request_on(const Region& region, const MethodSpec& method, const State<double>& z) {
@@ -39,7 +39,7 @@ double largest_coordinate(const Frame& frame) {
   return most;
 }
 
-/// Why a run shows nothing of what it conserves; empty where it does.
+/// Explains why a run shows nothing about conservation; empty if it does show something.
 std::string nothing_shown(const Simulation& simulation, Outcome outcome, double size_at_start, double size) {
   if (outcome == Outcome::non_finite) {
     return fmt::format("the state was no longer finite after step {} of {}", simulation.step(), map_steps);
@@ -54,7 +54,7 @@ std::string nothing_shown(const Simulation& simulation, Outcome outcome, double 
   return {};
 }
 
-/// Invariants of which rounding is known.
+/// Measures the invariants whose rounding error is known.
 void measure_maps(const Region& region, const MethodSpec& method, MethodCertificate& found) {
   const auto problem_entry = find_problem(region);
   const ProblemEntry& problem = *problem_entry;
@@ -91,7 +91,7 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
   MethodCertificate found;
   for (const Measurement& m : on) {
     const std::optional<DriftClass>& here = m.energy.drift.drift;
-    if (found.drift == DriftClass::linear) break;  // nothing is worse
+    if (found.drift == DriftClass::linear) break;  // no class is worse
     if (here == DriftClass::linear || !here || !found.drift) {
       found.drift = here == DriftClass::linear ? here : std::nullopt;
     } else {

@@ -10,9 +10,9 @@ namespace hamflow {
 
 namespace {
 
-/// Moves every coordinate by up to `part` times its size along the motion, by different amounts, so that terms do not
-/// cancel by chance, as x p_y - y p_x does along a motion without angular momentum. A coordinate that is 0 along the
-/// motion is moved by the size of the largest.
+/// Moves every coordinate by up to `part` times its size along the motion, each by a different amount, so that terms do
+/// not cancel by chance. For example x p_y - y p_x is 0 along a motion without angular momentum. A coordinate that is 0
+/// along the motion is moved by the size of the largest one.
 std::vector<double> beside(const std::vector<double>& x, const std::vector<double>& sizes, double part,
                            std::uint64_t draw) {
   const double largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
@@ -31,8 +31,8 @@ std::vector<double> negated(std::vector<double> p) {
 
 }  // namespace
 
-/// Tests the velocities v = dH/dp, which contain neither V nor a constant: H is even in p if and only if v is odd. If
-/// the expression of H is even, v is odd to the last bit.
+/// Tests the velocities v = dH/dp, because V and constants do not contribute to them. H is even in p if and only if v
+/// is odd. If the expression of H is even, v is odd bit for bit.
 MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& parameters, const StateSizes& sizes,
                                  std::span<const Frame* const> states) {
   constexpr double parts[] = {0x1p-4, 0x1p-16, 0x1p-32};  // near a singularity H is finite only close to the motion

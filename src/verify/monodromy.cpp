@@ -46,7 +46,7 @@ SymplecticEigenvalues symplectic_eigenvalues(const std::vector<std::vector<doubl
   if (solver.info() != Eigen::Success)
     throw Error("the eigenvalues of the derivative of the steps could not be computed");
   std::vector<std::complex<double>> left(solver.eigenvalues().data(), solver.eigenvalues().data() + size);
-  while (!left.empty()) {  // the largest that is left, and what comes nearest to its inverse
+  while (!left.empty()) {  // takes the largest remaining eigenvalue and the one closest to its inverse
     const auto larger = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) {
       return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a.imag() < b.imag();
     });

@@ -1,6 +1,5 @@
-// The derivative of many steps, M = Psi_h'(z_(N-1)) .. Psi_h'(z_0): on a periodic orbit the monodromy matrix.
-// Eigenvalues of a symplectic matrix come in pairs lambda, 1/lambda.   [HLW2006, Sect. VI.2; Arnold1989,
-// Sect. 42]
+// Derivative of many steps, M = Psi_h'(z_(N-1)) .. Psi_h'(z_0). On a periodic orbit it is the monodromy matrix.
+// Eigenvalues of a symplectic matrix come in pairs lambda, 1/lambda.   [HLW2006, Sect. VI.2; Arnold1989, Sect. 42]
 #pragma once
 
 #include <complex>
@@ -10,20 +9,20 @@
 namespace hamflow {
 
 struct SymplecticEigenvalues {
-  std::vector<std::complex<double>> values;  // partners next to each other, the larger first; pairs by falling size
+  std::vector<std::complex<double>> values;  // in pairs, the larger one first; pairs in descending order
   double pair_defect = 0;                    // max |lambda lambda' - 1|
   double symplectic_defect = 0;              // largest entry of |M^T J M - J|
-  /// The largest row sum of |M|. Rounding alone makes the defects some epsilon norm^2: an eigenvalue of size 1/norm is
-  /// known to epsilon norm only.
+  /// Largest row sum of |M|. Rounding alone makes both defects about epsilon norm^2, because an eigenvalue of size
+  /// 1/norm is only known to epsilon norm.
   double norm = 0;
 };
 
-/// @param rows of a 2n x 2n matrix   @throws Error when an entry is not finite
+/// @param rows rows of a 2n x 2n matrix   @throws Error if an entry is not finite
 SymplecticEigenvalues symplectic_eigenvalues(const std::vector<std::vector<double>>& rows);
-/// d Psi_h^steps(z)/dz by rows; empty when a step fails.
+/// Returns the rows of d Psi_h^steps(z)/dz; empty if a step fails.
 std::vector<std::vector<double>> derivative_of_steps(const StepMap& map, State<double> z, double h, std::int64_t steps);
 
-/// The derivative of all steps of a run, beside it. Costs like 2n Lyapunov exponents.
+/// Carries the derivative of all steps along a run. It costs as much as 2n Lyapunov exponents.
 class MonodromyWatch final : public TangentWatch {
  public:
   MonodromyWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);

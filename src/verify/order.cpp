@@ -20,7 +20,7 @@ Long distance(const State<Long>& a, const State<Long>& b) {
 double log2_of(long double x) { return static_cast<double>(std::log2(x)); }
 double log2_of(const Quad& x) { return static_cast<double>(log(x)) / std::log(2.0); }
 
-/// The norm of the derivative of the exact flow: how an early rounding shows at the end.
+/// Returns the norm of the derivative of the exact flow, which amplifies an early rounding until the end.
 template <class Long>
 Long amplification(const StepMap& map, const State<Long>& z, const State<Long>& end, const Long& time) {
   const Long small(0x1p-20L);
@@ -44,8 +44,8 @@ Finding OrderMeasurement::is(int order) const {
 }
 
 OrderMeasurement measure_order(const StepMap& map, const Region& region) {
-  // In long double four halvings of a method of order 8 lead from half a digit to the rounding; those of order 6 with
-  // small error constants have no four.
+  // In long double, four halvings of the step lead a method of order 8 from half a digit to the rounding level. Methods
+  // of order 6 with small error constants do not even have four.
   constexpr int highest_in_long_double = 5;
   const bool in_quad = map.claims().order > highest_in_long_double && map.has_quad();
   return in_quad ? slope_in<Quad>(map, region) : slope_in<long double>(map, region);
@@ -61,11 +61,11 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   const Long size = distance(exact, State<Long>(exact.size()));
   const Long unit = long_epsilon * size * amplification(map, start, exact, time);
 
-  // From about half a time unit to 2^12 times finer: a coefficient that is wrong in the 6th place has taken over from
-  // an error term of order 4 at the fine end. Rounding of N steps is a walk of sqrt(N) units, to which the reference
-  // adds a few; points within a factor of 8 of that are masked.
-  // An iterated step in quad costs hundreds of others, and its coefficients follow from those of Gauss: no single one
-  // is wrong in its 6th place.
+  // Step sizes go from about half a time unit down to 2^12 times less. At the smallest, a coefficient that is wrong in
+  // its 6th digit dominates an error term of order 4. The rounding errors of N steps make a random walk of sqrt(N)
+  // units, to which the reference adds a few; errors within a factor of 8 of that are masked.
+  // Implicit methods get only 8 halvings in quad: their steps cost hundreds of others, and no single coefficient can be
+  // wrong in its 6th digit, because all follow from Gauss points.
   const int halvings = std::is_same_v<Long, Quad> && !map.claims().explicit_step ? 8 : 12;
   std::vector<double> log_step;
   std::vector<double> log_error;
@@ -83,7 +83,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
       continue;
     }
     const Long error = distance(z, exact);
-    if (!(error < size)) continue;  // broken down, or not even a digit
+    if (!(error < size)) continue;  // the run broke down, or the error is as large as the motion
     masked = error < Long(8) * unit * (Long(8) + Long(std::sqrt(static_cast<double>(steps))));
     if (masked) break;
     log_step.push_back(std::log2(static_cast<double>(h)));

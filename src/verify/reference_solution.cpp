@@ -31,7 +31,7 @@ std::vector<std::string> all_exact_digits(const std::vector<double>& x) {
   return all;
 }
 
-/// The same numbers, rounded to double like those of the run.
+/// Returns the numbers rounded to double, as the run in double uses them.
 Texts rounded(const Texts& parameters) {
   Texts all = parameters;
   for (auto& [name, text] : all) {
@@ -44,7 +44,8 @@ Texts rounded(const Texts& parameters) {
   return all;
 }
 
-/// Whether the orbit ends in the centre, where H has no value: a closed form may go on behind it, which is no motion.
+/// Returns whether the orbit ends in the centre, where H has no value. A closed form may continue past the centre, but
+/// that is no motion.
 bool falls_into_centre(const ProblemEntry& problem, const Texts& parameters, const Frame& start) {
   if (!problem.describe_orbit) return false;
   const OrbitFacts facts = problem.describe_orbit(parameters, start.q, start.p);
@@ -54,7 +55,7 @@ bool falls_into_centre(const ProblemEntry& problem, const Texts& parameters, con
   });
 }
 
-/// Of each number of a state, what a difference is relative to.
+/// Returns for each number of a state the size by which its difference is divided.
 State<double> sizes_along(const ProblemEntry& problem, const StateSizes& sizes) {
   const std::size_t n = sizes.q.size();
   const UnitGroups groups = unit_groups(problem, n);
@@ -67,17 +68,19 @@ State<double> sizes_along(const ProblemEntry& problem, const StateSizes& sizes) 
   return all;
 }
 
-/// In [0, 1): sizes are looked up at random times, always the same ones. At times in step with an oscillation the
-/// momenta may be 0 each time.
+/// Returns a pseudo-random number in [0, 1), the same in every run. The sizes of a motion are sampled at random times,
+/// because at times in step with an oscillation the momenta may be 0 each time.
 double random_part(std::int64_t k) { return 0.5 + 0.5 * counter_uniform(64, static_cast<std::uint64_t>(k)); }
 
-/// The closed form is computed in long double from the start in double. Its uncertainty: the rounding of what it
-/// returns, and 32 roundings of long double in each coordinate of the start, as the motion carries them to the end.
+/// Evaluates the closed form in long double from the start in double. The uncertainty consists of the rounding of the
+/// returned numbers and of 32 roundings of long double in each coordinate of the start, amplified by the motion until
+/// the end.
 std::optional<ReferenceSolution> closed_form(const Request& request, const ProblemEntry& problem, double t_end) {
   if (!problem.exact) return std::nullopt;
   const Frame start = problem.start(request);
   const Texts parameters = problem.derived(request.parameters, request.start);
-  if (falls_into_centre(problem, parameters, start)) return std::nullopt;  // an integration finds out when
+  // an integration finds the time of the collision
+  if (falls_into_centre(problem, parameters, start)) return std::nullopt;
   const auto exact = problem.exact(parameters, start.q, start.p, t_end);
   if (!exact) return std::nullopt;
   ReferenceSolution found{"closed form", "the closed form of the problem, in double", joined_state(*exact), {}, {}, {}};
@@ -97,14 +100,14 @@ std::optional<ReferenceSolution> closed_form(const Request& request, const Probl
     const double along = i < start.q.size() ? seen.q[i] : seen.p[i - start.q.size()];
     x += epsilon * (x != 0 ? x : along);
     const auto moved = problem.exact(parameters, near.q, near.p, t_end);
-    if (!moved) return std::nullopt;  // a rounding away it is not known: nor how well it is here
+    if (!moved) return std::nullopt;  // the neighbouring motion is unknown, so the uncertainty is, too
     const State<double> end = joined_state(*moved);
     double most = 0;
     for (std::size_t k = 0; k < end.size(); ++k)
       most = std::max(most, std::abs(end[k] - found.end[k]) / found.sizes[k]);
     moved_by += most;
   }
-  constexpr double share = 32 * 0x1p-11;  // of a rounding of double
+  constexpr double share = 32 * 0x1p-11;  // relative to a rounding of double
   double of_the_end = 0;
   for (std::size_t k = 0; k < found.end.size(); ++k) {
     of_the_end = std::max(of_the_end, std::abs(found.end[k]) / found.sizes[k]);
@@ -123,7 +126,8 @@ int digits_of(const std::string& arithmetic) {
 std::string reference_arithmetic(const std::string& arithmetic) {
   const int digits = digits_of(arithmetic);
   if (digits <= 18) return "double-double";
-  // Ten digits to carry errors of the end, a sixth more for what extrapolation with many columns loses.
+  // Ten digits allow for the growth of errors until the end; a sixth more for digits that extrapolation with many
+  // columns loses.
   return fmt::format("mp({})", digits + 10 + digits / 6);
 }
 
@@ -134,7 +138,7 @@ class ReferenceRun::Impl {
     Request full = request;
     full.parameters = complete(problem.info, request.parameters);
     const bool beyond_double = digits_beyond_double(request.arithmetic) > 0;
-    std::optional<DoubleConstants> constants;  // while the simulations are made
+    std::optional<DoubleConstants> constants;  // needed while the simulations are made
     if (!beyond_double) {
       if (auto exact = closed_form(full, problem, evaluate_number<double>(t_end))) {
         solution_ = std::move(*exact);
@@ -147,20 +151,21 @@ class ReferenceRun::Impl {
     }
     full.arithmetic = reference_arithmetic(request.arithmetic);
     full.threads = 1;
-    // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long. However long the run
-    // is, a piece is no longer than 800 steps, since Taylor series are stopped only between pieces.
+    // Pieces cut sub-steps short, so there should be fewer pieces than sub-steps, which are a few hundred steps long.
+    // But a piece has at most 800 steps, because Taylor series are stopped only between pieces.
     pieces_ = std::max<std::int64_t>(steps / 800, 16);
-    // Behind hard walls the motion itself is that of located bounces, whatever the rule of the run; steps as short as
-    // those of the run tell where it turns.
+    // With hard walls the exact motion bounces at located times, whatever the rule of the run is. Pieces as short as
+    // the steps of the run locate the bounces.
     if (full.walls && full.walls->hard()) {
       full.walls->rule = WallRule::event;
       pieces_ = std::max<std::int64_t>(steps, 16);
     }
     const std::string end = beyond_double ? t_end : exact_digits(evaluate_number<double>(t_end));
     full.dt = "(" + end + ")/" + std::to_string(pieces_);
-    const int digits = std::min(digits_of(request.arithmetic), 290);  // tolerances are doubles
+    // tolerances are doubles, so they cannot be smaller
+    const int digits = std::min(digits_of(request.arithmetic), 290);
     const MethodSpec taylor{"taylor", {{tolerance_option, fmt::format("1e-{}", digits + 3)}}};
-    // Of constraints the field with multipliers, whatever the form of the run.
+    // Problems with constraints are integrated as a vector field with multipliers, whatever the form of the run is.
     const bool recordable = problem.accepts(taylor) || !problem.constraint_form.empty();
     first_tolerance_ = std::pow(10.0, -digits - 3);
     second_tolerance_ = std::pow(10.0, recordable ? -digits - 2 : -digits);
@@ -176,7 +181,7 @@ class ReferenceRun::Impl {
 
   void advance(const std::function<bool()>& goes_on) {
     const StopQuestion question(goes_on);
-    constexpr std::int64_t looked_into = 16;  // pieces
+    constexpr std::int64_t looked_into = 16;  // number of pieces that are sampled within
     if (first_ != nullptr && first_->step() < looked_into) {
       Frame within;
       if (first_->look_part(random_part(first_->step()), within) == Outcome::done) seen_.include(within.q, within.p);
@@ -226,7 +231,8 @@ class ReferenceRun::Impl {
     solution_.sizes = sizes_along(*problem_, seen_);
     const Magnitude difference =
         largest_difference(solution_.digits, state_digits(frame), solution_.sizes, digits + 10);
-    // Not less than the tolerance of the coarser one: two errors can meet by chance.
+    // The uncertainty is at least the tolerance of the less accurate integration, because both errors may agree by
+    // chance.
     const Magnitude least = second_tolerance_;
     const Magnitude twice = difference.text.empty() ? Magnitude(2 * difference.value) : difference;
     solution_.uncertainty = twice < least ? least : twice;
@@ -236,8 +242,8 @@ class ReferenceRun::Impl {
   }
 
   std::shared_ptr<const ProblemEntry> problem_;
-  StateSizes seen_;                    // along the motion
-  std::unique_ptr<Simulation> first_;  // null: a closed form
+  StateSizes seen_;                    // sizes of the motion
+  std::unique_ptr<Simulation> first_;  // null if there is a closed form
   std::unique_ptr<Simulation> second_;
   std::int64_t pieces_ = 0;
   double first_tolerance_ = 0;

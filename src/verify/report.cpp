@@ -1,4 +1,4 @@
-// The property table as text and as JSON.
+// Writes the property table as text and as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string aligned(const Lines& lines) {
 namespace {
 std::string flag(Finding agrees) { return agrees == Finding::yes ? "" : agrees == Finding::no ? " !!" : " ??"; }
 
-/// A dash for what was not measured.
+/// Writes a number, or a dash if it was not measured.
 template <class Format>
 std::string number(Format format, double x) {
   return std::isnan(x) ? "-" : fmt::format(format, x);
@@ -45,7 +45,7 @@ std::string units(const DefectMeasurement& d) {
 }
 std::string_view name_of(const std::optional<DriftClass>& drift) { return drift ? name(*drift) : "undecided"; }
 
-/// With the reason, where there is one.
+/// Adds the reason, if there is one.
 nlohmann::json with_reason(nlohmann::json all, const std::string& reason) {
   if (!reason.empty()) all["reason"] = reason;
   return all;
@@ -59,7 +59,7 @@ nlohmann::json json_of(Finding agrees) {
   return agrees == Finding::unclear ? nlohmann::json(nullptr) : nlohmann::json(agrees == Finding::yes);
 }
 
-/// Of a step through a wall no long runs are measured.
+/// Returns whether long runs were measured. They are not measured for steps that bounce off walls.
 bool has_runs(const PropertyRow& row) { return row.has("energy conserving"); }
 
 nlohmann::json json_of(const Measurement& m, bool with_runs) {
@@ -94,7 +94,7 @@ nlohmann::json json_of(const Measurement& m, bool with_runs) {
                                    m.cost.reason)}});
   return all;
 }
-/// @param yes how what is kept is called
+/// @param yes the word for an invariant that is conserved
 const char* kept(const MethodCertificate::Map& m, const char* yes) {
   return !m.conserved ? "undecided" : *m.conserved ? yes : "not";
 }
@@ -121,7 +121,7 @@ nlohmann::json json_of(const MethodCertificate& c) {
   return {{"drift", name_of(c.drift)}, {"momentum_maps", maps}, {"reversal_distance", returns}};
 }
 
-/// One line for each method, one column for each momentum map and each return that any of them has.
+/// One line for each method, one column for each momentum map and each reversal that any method has.
 std::string certificates(std::span<const PropertyRow> rows) {
   Lines lines{{"method", "energy drift"}};
   const auto column = [&](const std::string& heading) {
@@ -168,7 +168,7 @@ std::string verdict(const PropertyRow& row) {
   return row.agrees() ? "agrees" : differs + (differs.empty() || unclear.empty() ? "" : "; ") + unclear;
 }
 
-/// A line for each thing that was not measured; empty where all was.
+/// Lists what was not measured, one line each; empty if everything was.
 std::string not_measured(std::span<const PropertyRow> rows) {
   Lines lines{{"method", "problem", "what", "why"}};
   for (const PropertyRow& row : rows) {
@@ -195,7 +195,7 @@ std::string not_measured(std::span<const PropertyRow> rows) {
   return lines.size() == 1 ? "" : "\nproperties that were not fully measured\n" + aligned(lines);
 }
 
-/// Below every normal number only that.
+/// For a p-value below the smallest normal number, only a bound is written.
 std::string p_value(double p) {
   if (p < std::numeric_limits<double>::min()) return "<2e-308";
   return number(FMT_STRING("{:.1g}"), p);
@@ -203,7 +203,7 @@ std::string p_value(double p) {
 }  // namespace
 
 std::string property_table(std::span<const PropertyRow> rows) {
-  // claimed/measured, the names of the columns in full below the table
+  // The cells contain claimed/measured. Full names of the columns follow below the table.
   Lines table{{"method", "order", "explicit", "symplectic", "weakly rev.", "symmetric", "reversible",
                "energy conserving", "forces/step", "Newton", "verdict"}};
   const std::vector<std::string> properties{

@@ -1,4 +1,5 @@
-// Reversal: integrate forward, negate the momenta, integrate again, negate. It reveals every irreversible step.
+// Reversal: integrate forward, negate the momenta, integrate forward again, negate them again. It reveals every
+// irreversible step.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -11,8 +12,8 @@ namespace hamflow {
 
 namespace {
 
-/// Looks at the way there once in each of some 64 parts, at a random place that is always the same: at places in step
-/// with an oscillation the momenta may be 0 each time.
+/// Samples the sizes of the motion during the first half, once in each of about 64 parts, at pseudo-random places that
+/// are the same in every run. At places in step with an oscillation the momenta may be 0 each time.
 class ForwardSizes final : public Observer {
  public:
   ForwardSizes(std::int64_t first, std::int64_t steps, StateSizes& sizes)
@@ -38,8 +39,8 @@ class ForwardSizes final : public Observer {
   StateSizes& sizes_;
 };
 
-/// All but the states at the start and at the turn, which are the progress's.
-/// @param there, back   observers of either way
+/// Runs the reversal. `progress` keeps the states at the start and at the turn.
+/// @param there, back observers of the first and of the second half
 Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
                    std::span<Observer* const> there, std::span<Observer* const> back, ReversalProgress& progress,
                    const UnitGroups& groups) {
@@ -80,7 +81,7 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
   found.sizes = progress.sizes;
   if (!progress.turned) return found;
   if (!go(first + 2 * steps, back)) {
-    const auto here = simulation.clone();  // the original may continue the way back with the memory of its method
+    const auto here = simulation.clone();  // the original may continue the second half with what its method remembers
     here->negate_momenta();
     here->look(found.end);
     found.end_hash = fnv1a(here->bits());

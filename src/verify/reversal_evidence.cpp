@@ -20,12 +20,14 @@ namespace {
 constexpr double moved = 0x1p-36;            // initial distance relative to q and p: 2^16 roundings, but still small
 constexpr double moved_less = 0x1p-40;       // smaller initial distance, to test whether distances grow in proportion
 constexpr double in_proportion = 4;          // allowed factor: a smooth motion has 1, and roundings add to it
-constexpr double parted = 1e-3;              // relative distance that is no longer small
-constexpr double beyond = 16;                // a distance within so many rounding bounds does not refute a method
+constexpr double parted = 1e-3;              // relative distance that counts as large
+constexpr double beyond = 16;                // a distance below this many rounding bounds does not refute a method
 constexpr std::int64_t most_waypoints = 64;  // number of states at which two motions are compared
-constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates in all of them: 128 MB, with momenta
+// coordinates in all stored states: 128 MB, together with the momenta
+constexpr std::int64_t most_kept = std::int64_t{1} << 23;
 
-/// Stores the states of a motion at up to `most_waypoints` steps; for very large systems at fewer, but at least four.
+/// Stores the states of a motion at up to `most_waypoints` steps. For very large systems it stores fewer states, but at
+/// least four.
 class Waypoints final : public Observer {
  public:
   Waypoints(std::int64_t steps, std::size_t size)
@@ -61,13 +63,13 @@ struct Motion {
   const Waypoints& way;
   UnitGroups groups;
   GroupSizes sizes = group_sizes(groups, reversal.sizes);
-  std::size_t count() const { return sizes.size.size(); }  // number of groups, including those of momenta
+  std::size_t count() const { return sizes.size.size(); }  // number of groups, including groups of momenta
   /// The size by which differences within a group are divided.
   double unit(std::size_t group) const { return sizes.size[group] > 0 ? sizes.size[group] : 1; }
 };
 
-/// The distance of another motion from the stored states, at the same steps: the largest difference of a number divided
-/// by the size of its group, for groups that are more than rounding. It stores no states.
+/// Measures the distance of another motion from the stored states, at the same steps: the largest difference of two
+/// numbers divided by the size of their group, without groups that contain only rounding errors. It stores no states.
 class DistancesFrom final : public Observer {
  public:
   explicit DistancesFrom(const Motion& motion) : motion_(motion), of_positions_(motion.groups.count()) {
@@ -77,7 +79,7 @@ class DistancesFrom final : public Observer {
   std::int64_t next_due(std::int64_t step) const override { return motion_.way.next_due(step); }
   Verdict observe(const Frame& frame) override { return look(frame.q, frame.p) ? Verdict::go_on : Verdict::stop; }
 
-  /// Compares the next state. Returns false if no stored state is left.
+  /// Compares the next state. Returns false if all stored states have been compared.
   bool look(const std::vector<double>& q, const std::vector<double>& p) {
     if (looks_ == motion_.way.count()) return false;
     const std::vector<double>& way_q = motion_.way.q(looks_);
@@ -99,7 +101,8 @@ class DistancesFrom final : public Observer {
     }
     for (std::size_t k = 0; k < p.size(); ++k) {
       const double apart = std::abs(way_p[k] - p[k]);
-      // If two motions meet a wall, one of them bounces first. Until the other one bounces, their momenta are opposite.
+      // When two motions meet a wall, one of them bounces first. Until the other one bounces, their momenta are
+      // opposite.
       const double turned = is_on_wall(k, way_q[k], q[k]) ? std::abs(way_p[k] + p[k]) : apart;
       (void)relative(n + motion_.groups.group(k), std::min(apart, turned));
     }
@@ -110,11 +113,11 @@ class DistancesFrom final : public Observer {
   }
   bool is_complete() const { return finite_ && looks_ == motion_.way.count(); }
   double furthest() const { return furthest_; }
-  std::size_t widest() const { return widest_; }  // the group with the largest distance
+  std::size_t widest() const { return widest_; }  // group with the largest distance
   double mean_square() const { return squares_ / static_cast<double>(looks_); }
 
  private:
-  /// Whether both states are as near to a wall as the motions are to each other, within a factor.
+  /// Returns whether both states are about as close to a wall as the motions are to each other.
   bool is_on_wall(std::size_t coordinate, double a, double b) const {
     const std::size_t group = motion_.groups.group(coordinate);
     const double near = 16 * std::max(moved, of_positions_[group]) * motion_.unit(group);
@@ -133,10 +136,10 @@ class DistancesFrom final : public Observer {
   bool finite_ = true;
 };
 
-/// The displacement of the start of another motion: every coordinate is moved by `size` times its size along the
-/// motion, with a random sign. On a lattice, where all roundings are equal, the size of the largest coordinate is used.
-/// With `unequal` the moves are between half and the whole of this, so that no two particles move alike, the distance
-/// of every pair changes, and either a move or the opposite one reduces it.
+/// How to displace the start of another motion: every coordinate moves by `size` times its size along the motion, with
+/// a random sign. On a lattice, where all roundings are equal, the size of the largest coordinate is used. With
+/// `unequal` the displacements are between half and the whole of this. Then no two particles move alike, the distance
+/// of every pair changes, and either a displacement or the opposite one reduces it.
 struct Move {
   double size = moved;
   std::uint64_t seed = 1;
@@ -173,12 +176,12 @@ std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
   }
 }
 
-/// The separation of two motions that start `Move::size` apart, relative to the sizes of the groups.
+/// Separation of two motions that start at a distance of `Move::size`, relative to the sizes of the groups.
 struct Parting {
   bool measured = false;
-  double root_mean_square = 0;  // along the way, divided by Move::size
+  double root_mean_square = 0;  // along the motion, divided by Move::size
   double furthest = 0;
-  std::size_t widest = 0;  // the group with the furthest distance
+  std::size_t widest = 0;  // group with the largest distance
 };
 
 std::vector<std::string> all_texts(const std::vector<double>& x) {
@@ -188,8 +191,8 @@ std::vector<std::string> all_texts(const std::vector<double>& x) {
   return texts;
 }
 
-/// Follows the motion that starts at (q, p), with the second copy starting at another displaced state: a run starts
-/// both copies equal, but rounding acts on each of them differently.
+/// Follows the motion that starts at (q, p) for a method that carries a second copy of the state. The copy starts from
+/// another displaced state. In a run both copies start equal, but rounding acts on each of them differently.
 void follow_with_copy(const Motion& motion, const std::vector<double>& q, const std::vector<double>& p,
                       const Move& move, DistancesFrom& beside, const GoOn& go_on) {
   const Reversal& reversal = motion.reversal;
@@ -198,7 +201,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
   request.parameters = complete(motion.problem.info, request.parameters);
   const auto map = motion.problem.step_map(request, n);
   if (!map) return;
-  // (q, x, p, y): the copy (x, y) is the start with other random displacements.
+  // The state is (q, x, p, y). The copy (x, y) is the start with other random displacements.
   const StateSizes& sizes = motion.reversal.sizes;
   const std::vector<double> x = moved_by(reversal.start.q, sizes.q, move, move.seed + 16, false);
   const std::vector<double> y = moved_by(reversal.start.p, sizes.p, move, move.seed + 17, false);
@@ -214,7 +217,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
   }
 }
 
-/// Measures the separation in double, because small differences grow in the same way in every arithmetic.
+/// Measures the separation in double, because small differences grow equally in every arithmetic.
 Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) {
   const Reversal& reversal = motion.reversal;
   const StateSizes& sizes = motion.reversal.sizes;
@@ -240,11 +243,11 @@ Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) 
   return {true, std::sqrt(beside.mean_square()) / std::abs(move.size), beside.furthest(), beside.widest()};
 }
 
-/// The distance that rounding explains, relative to the size of a group. The way back from j to the start amplifies a
-/// rounding of step j. The inverse of a symplectic map has the norm of the map, so the amplification g_j is that of a
-/// small difference on the way from the start to j, which is measured. Roundings of size u then add up like a walk, to
-/// u sqrt(2 a sum_j g_j^2) for a operations per step. The bound is four times this, which is more than six times what
-/// reversible methods were found to need (tools/confusion_table.py).
+/// Returns the distance that rounding explains, relative to the size of a group. The second half amplifies a rounding
+/// of step j on the way from j to the start. The inverse of a symplectic map has the same norm as the map, so the
+/// amplification g_j equals the growth of a small difference from the start to j, which is measured. Roundings of size
+/// u add up like a random walk, to u sqrt(2 a sum_j g_j^2) for a operations per step. The bound is four times this,
+/// more than six times the distances that reversible methods showed (tools/confusion_table.py).
 /// @param growth Parting::root_mean_square   @param bounds factor for the result
 LongNumber explained_by_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   const Request& request = motion.request;
@@ -258,15 +261,15 @@ LongNumber explained_by_rounding(const Motion& motion, double growth, double act
                             over(request.momentum_unit, largest_of(sizes.p))});
 }
 
-/// Whether the distance of the reversal is within so many of these bounds.
+/// Returns whether the distance of the reversal is below `bounds` times this bound.
 bool within_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   return at_most(motion.reversal.relative_distance, explained_by_rounding(motion, growth, actions, bounds));
 }
 
 std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:.1e}", x.value) : x.text; }
 
-/// Whether a motion starts on a hard wall, to rounding. Then it returns to the wall with the momentum before or after
-/// the bounce, depending on the last bit of the time.
+/// Returns whether a motion starts on a hard wall, to rounding. Then it returns with the momentum before or after the
+/// bounce, depending on the last bit of the time.
 bool begins_on_a_wall(const Motion& motion) {
   const auto& walls = motion.request.walls;
   if (!walls || !walls->hard()) return false;
@@ -278,8 +281,8 @@ bool begins_on_a_wall(const Motion& motion) {
   });
 }
 
-/// Whether a force may be discontinuous: at a hard wall, at the cut-off of a pair energy, or with abs() in a typed H.
-/// All other forces depend smoothly on the state wherever H is finite.
+/// Returns whether a force may be discontinuous: at a hard wall, at the cut-off of a pair energy, or with abs() in a
+/// typed H. All other forces depend smoothly on the state wherever H is finite.
 bool force_may_jump(const Request& request, const ProblemEntry& problem) {
   const auto& choices = request.variant;
   return has_hard_walls(request) || problem.has_cutoff ||
@@ -287,12 +290,12 @@ bool force_may_jump(const Request& request, const ProblemEntry& problem) {
                      [](const auto& choice) { return choice.second.find("abs") != std::string::npos; });
 }
 
-/// Why the amplification of rounding is unknown; empty if small differences grow in proportion to their size, as they
-/// do for every motion that depends smoothly on its start. At a discontinuity of the force one of two close motions may
-/// get a kick that the other does not get, however close they are; then a rounding has the same effect as the
-/// displacement here. Bodies with different masses separate by different factors in different directions. So a
-/// separation that is not in proportion to the first displacement is compared with a larger displacement in the same
-/// direction, and the largest separation is used.
+/// Explains why the amplification of rounding errors is unknown; empty if small differences grow in proportion to their
+/// size, as they do for every motion that depends smoothly on its start. At a discontinuity of the force, one of two
+/// motions may get a kick that the other one does not get, however close they are; then a rounding has the same effect
+/// as the displacement here. Bodies with different masses separate by different factors in different directions.
+/// Therefore, if a separation is not in proportion to the first displacement, it is compared with that for a larger
+/// displacement in the same direction, and the largest separation is used.
 /// @param apart separation for the first displacement; becomes the largest separation
 std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& go_on) {
   const auto alike = [](const Parting& nearer, const Parting& wider) {
@@ -324,7 +327,7 @@ std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& 
   return {};
 }
 
-/// The conclusion and the reason.
+/// Returns the conclusion and its reason.
 std::pair<ReversalProof, std::string> judged(const Motion& motion, double actions, const GoOn& go_on) {
   const Reversal& reversal = motion.reversal;
   const MethodInfo method = describe(motion.request.method);
@@ -360,11 +363,11 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
         ReversalProof::to_rounding,
         "every digit of q and p returned, but not the sign of a zero or digits that the steps carry below the last"};
   }
-  std::size_t worst = 0;  // the group with the largest relative distance
+  std::size_t worst = 0;  // group with the largest relative distance
   for (std::size_t g = 1; g < motion.count(); ++g) {
     if (!at_most(reversal.distances[g].relative, reversal.distances[worst].relative)) worst = g;
   }
-  // A distance below the bound without any amplification needs no further motion.
+  // If the distance is below the bound without amplification, no further motion is needed.
   if (!within_rounding(motion, std::min(apart.root_mean_square, 1.0), actions)) {
     const std::string unknown = out_of_proportion(motion, apart, go_on);
     if (!unknown.empty()) return {ReversalProof::nothing, off(worst) + ", " + unknown};
@@ -396,7 +399,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   return {ReversalProof::to_rounding, explained};
 }
 
-/// The step of the first bounce; 0: no bounce within `steps`.
+/// Returns the step of the first bounce; 0: no bounce within `steps`.
 std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn& go_on) {
   const auto simulation = simulation_beside_the_run(request);
   std::int64_t first = 0;
@@ -414,19 +417,21 @@ ReversalEvidence stopped_evidence() {
   return none;
 }
 
-/// The approximate cost of an operation in another arithmetic, relative to double.
+/// Returns the approximate cost of an operation in another arithmetic, relative to double.
 double slowness_of(const std::string& arithmetic) {
   if (const int digits = mp_digits(arithmetic); digits > 0) return 200 * (1 + std::pow(digits / 300.0, 1.7));
   if (digits_beyond_double(arithmetic) > 0) return 50;
   return arithmetic == "lattice" ? 4 : 1;
 }
 
-/// The number of steps each way for which all evidence takes about a second. The work is counted in pairs of bodies and
-/// in coordinates, of about 10 ns in double. It is not timed, so the conclusion does not depend on the machine.
+/// Returns the number of steps in each direction for which the whole test takes about a second. Work is counted in
+/// pairs of bodies and in coordinates, at about 10 ns each in double. Time is not measured, so the conclusion does not
+/// depend on the machine.
 double steps_of_a_second(const Request& request, const ProblemEntry& problem, std::size_t size) {
   constexpr double work = 1e8;
-  constexpr double motions = 8;           // forward and back, up to five displaced ones, the way to the first bounce
-  constexpr double of_implicit = 20;      // evaluations of an iterated step
+  // forward, back, up to five displaced motions, and the search for the first bounce
+  constexpr double motions = 8;
+  constexpr double of_implicit = 20;      // evaluations of an implicit step
   constexpr double of_coordinate = 10;    // also for a gas with a cut-off
   constexpr double numbers_of_pair = 16;  // n numbers have n^2/18 pairs of bodies in space
   const auto numbers = static_cast<double>(size);
@@ -495,7 +500,8 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const Effort effort = simulation->effort();
     const double actions =
         std::max(1.0, static_cast<double>(effort.force + effort.gradient) / static_cast<double>(2 * found.steps));
-    simulation.reset();  // frees memory, e.g. neighbour lists of a million particles, before another one is made
+    // frees memory before another simulation is made, for example neighbour lists of a million particles
+    simulation.reset();
     reversal.end = {};
     const Motion motion{request, problem, reversal, way, groups};
     std::tie(found.proves, found.reason) = judged(motion, actions, go_on);

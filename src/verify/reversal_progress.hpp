@@ -1,5 +1,5 @@
-// The progress of a reversal: the data that, with the simulation, let a stopped reversal continue with the same bits
-// and find the same distance.
+// Progress of a reversal. Together with the simulation it lets a stopped reversal continue with the same bits and find
+// the same distance.
 #pragma once
 
 #include "hamflow/verify/certificate.hpp"
@@ -8,13 +8,13 @@ namespace hamflow {
 
 struct ReversalProgress {
   bool begun = false;
-  bool turned = false;          // the momenta are negated: this is the way back
-  std::int64_t first = 0;       // the step at which the way there began
-  StateSizes sizes;             // along the way there
-  Frame start, turn;            // without effort and diagnostics once they were archived
-  std::vector<std::byte> bits;  // of the start
+  bool turned = false;          // the momenta have been negated, so the second half is running
+  std::int64_t first = 0;       // step at which the first half began
+  StateSizes sizes;             // sizes along the first half
+  Frame start, turn;            // without effort and diagnostics once they have been archived
+  std::vector<std::byte> bits;  // bits of the start
   std::uint64_t start_hash = 0, turn_hash = 0;
-  Excursion forward_energy;  // of the way there, as far as it has come; archived by those who want it
+  Excursion forward_energy;  // energy error of the first half so far; not archived here
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -27,9 +27,9 @@ struct ReversalProgress {
   }
 };
 
-/// reverse() from where `progress` stands, which is kept up to date: whenever `pulse` or an observer is called, the
+/// Continues a reversal from `progress` and keeps it up to date: whenever `pulse` or an observer is called, the
 /// simulation and the progress belong together.
-/// @param observers watch both ways
+/// @param observers observers of both halves
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse,
                  std::span<Observer* const> observers, ReversalProgress& progress, const UnitGroups& groups = {});
 

@@ -1,4 +1,4 @@
-// The unit of rounding of which the bounds of the verification are multiples.
+// Unit of rounding. The bounds of the verification are multiples of it.
 #pragma once
 
 #include <limits>

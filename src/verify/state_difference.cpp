@@ -9,14 +9,14 @@
 namespace hamflow {
 
 namespace {
-/// "-412" behind the e, or 0.
+/// Returns the exponent after the e, such as -412; 0 if there is none.
 int exponent_of(const std::string& decimal) {
   const auto e = decimal.find_first_of("eE");
   return e == std::string::npos ? 0 : std::atoi(decimal.c_str() + e + 1);
 }
 
 Magnitude magnitude_of(const Mp& x) {
-  // From here on a double has all its bits.
+  // From this size on a double has all its bits.
   if (x == Mp(0) || !(x < Mp(std::numeric_limits<double>::min()))) return {static_cast<double>(x)};
   return Magnitude(written_digits(x));
 }
@@ -59,7 +59,7 @@ Magnitude largest_difference(const std::vector<std::string>& a, const std::vecto
   Mp most(0);
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Mp difference = abs(parse_decimal<Mp>(a[i]) - parse_decimal<Mp>(b[i])) / Mp(sizes[i]);
-    if (!(difference <= most)) most = difference;  // not a number is the most
+    if (!(difference <= most)) most = difference;  // NaN counts as the largest
   }
   return magnitude_of(most);
 }

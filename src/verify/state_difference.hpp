@@ -1,4 +1,4 @@
-// Differences of states and energies that are known with more digits than double, by their decimal texts.
+// Differences of states and energies, computed from decimal texts with more digits than double.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace hamflow {
 
-/// q, then p, with all digits: of a simulation in double the exact decimals of its numbers.
+/// Returns q, then p, with all digits. For a simulation in double these are the exact decimals of its numbers.
 std::vector<std::string> state_digits(const Frame& frame);
-/// A double as the decimal that it is, to 45 digits: any arithmetic of the catalogue reads it back.
+/// Returns the exact decimal value of a double, to 45 digits, which every arithmetic of the catalogue reads.
 std::string exact_digits(double x);
 
-/// max_i |a_i - b_i|/sizes_i, formed with so many digits.
+/// Returns max_i |a_i - b_i|/sizes_i, computed with `digits` digits.
 Magnitude largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b,
                              const std::vector<double>& sizes, int digits);
-/// |a - b|/scale.
+/// Returns |a - b|/scale.
 Magnitude relative_difference(const std::string& a, const std::string& b, double scale, int digits);
 
 }  // namespace hamflow

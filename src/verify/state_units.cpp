@@ -10,9 +10,10 @@ namespace hamflow {
 
 namespace {
 
-constexpr double of_the_largest = 0x1p-40;  // what is smaller than that beside others is made by their rounding
+// relative to the largest group; anything smaller is rounding errors of the other groups
+constexpr double of_the_largest = 0x1p-40;
 
-/// "x" of "x[12]".
+/// Returns "x" for "x[12]".
 std::string family(const std::string& name) { return name.substr(0, name.find('[')); }
 
 std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
@@ -32,7 +33,8 @@ void include_in(std::vector<double>& most, const std::vector<double>& x) {
 UnitGroups unit_groups(const ProblemEntry& problem, std::size_t size) {
   const ProblemInfo& info = problem.info;
   UnitGroups groups;
-  if (info.coordinates.size() != size) return groups;  // of any size: bodies, particles, links
+  // problems of any size, such as bodies, particles or links, have one group
+  if (info.coordinates.size() != size) return groups;
   if (has_typed_hamiltonian(problem)) {
     groups.q.clear();
     groups.p.clear();

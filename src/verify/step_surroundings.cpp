@@ -22,8 +22,8 @@ double largest_of(const std::vector<double>& xs) {
 
 }  // namespace
 
-/// The spectral radius of the vector field's Jacobian, |A^8|^(1/8). Differences are taken in parts of the sizes of q
-/// and of p, which may have units of any size.
+/// Computes the spectral radius of the vector field's Jacobian as |A^8|^(1/8). Lengths of differences are fractions of
+/// the sizes of q and of p, which may have any units.
 double frequency_at(const StepProblem& problem, const State<double>& z) {
   const std::size_t n = z.size() / 2;
   const auto field = [&](const State<double>& at) {
@@ -110,7 +110,7 @@ Surroundings surroundings_of(const StepProblem& problem) {
   const auto [q, p] = parts(centre);
   const EnergyGradient g = problem.entry->gradient(problem.parameters, q, p);
   found.frequency = frequency_at(problem, centre);
-  // A motion that nothing turns back, such as a free fall, has a time all the same: that in which it changes the state.
+  // A motion without restoring force, such as free fall, also has a time scale: the time in which it changes the state.
   const double turns_over = std::max(largest_of(q) > 0 ? largest_of(g.by_p) / largest_of(q) : 0,
                                      largest_of(p) > 0 ? largest_of(g.by_q) / largest_of(p) : 0);
   if (found.frequency < 0x1p-10 * turns_over) found.frequency = turns_over;

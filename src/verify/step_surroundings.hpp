@@ -1,5 +1,5 @@
-// Where the step of a foreign program is measured: states about a state of the motion, and the sizes and the time that
-// belong to it.
+// States at which the step of a foreign program is measured, near a state of the motion, with their sizes and time
+// scale.
 #pragma once
 
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace hamflow {
 
-inline constexpr std::uint64_t state_seed = 20260711;  // any number: fixed, so that a measurement can be repeated
+inline constexpr std::uint64_t state_seed = 20260711;  // arbitrary but fixed, so that a measurement can be repeated
 
 /// States in general position, units of q and p, and the fastest angular frequency.
 struct Surroundings {
   std::vector<State<double>> states;
-  State<double> unit;  // of each number of a state
+  State<double> unit;  // unit of each number of a state
   double frequency = 0;
 };
 
-/// The Euclidean norm.
+/// Euclidean norm.
 double size_of(const State<double>& x);
-/// The spectral radius of the vector field's Jacobian at z, in radians per unit of time; 0 where it is not finite.
+/// Returns the spectral radius of the vector field's Jacobian at z, in radians per unit of time; 0 if it is not finite.
 double frequency_at(const StepProblem& problem, const State<double>& z);
-/// @throws Error where the problem has no state to begin with, is not regular there, or does not move
+/// @throws Error if the problem has no start, is singular there, or does not move
 Surroundings surroundings_of(const StepProblem& problem);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// Symplecticity and the reversibilities: defects of identities that hold to rounding or not at all.
+// Measures symplecticity and reversibility: defects of identities that hold either to rounding or not at all.
 #include "structure.hpp"
 
 #include <fmt/format.h>
@@ -20,9 +20,9 @@ constexpr std::uint64_t states = 8;
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Collects defects in units of rounding. A step of at most some twenty actions rounds each coordinate a few times in
-/// each, with coefficients up to 3: 512 units and less is rounding. Without the property the defect is c h^(r+1), at
-/// a twentieth of a period and r <= 6 far above 2^20 units, that is 2.3e-10.
+/// Collects defects in units of rounding. A step has at most about twenty operations; each rounds a coordinate a few
+/// times, with coefficients up to 3. So defects up to 512 units are rounding. Without the property the defect is c
+/// h^(r+1), which at a twentieth of a period and for r <= 6 is far above 2^20 units, 2.3e-10.
 class Defects {
  public:
   void add(double defect, double size) {
@@ -32,7 +32,7 @@ class Defects {
     found_.units = larger(found_.units, units);
     finite_ = finite_ && units <= std::numeric_limits<double>::max();
   }
-  /// From one of the states a step was not taken: nothing is known there.
+  /// Counts a state from which a step failed, so that nothing is known there.
   void fail() { ++failed_; }
   DefectMeasurement found(double rounding = 512, double real = 0x1p20) const {
     DefectMeasurement result = found_;
@@ -52,7 +52,7 @@ class Defects {
   std::uint64_t failed_ = 0;
 };
 
-/// S z: momenta reversed.
+/// Returns S z, the state with negated momenta.
 State<double> reversed(State<double> z) {
   for (std::size_t i = z.size() / 2; i < z.size(); ++i) z[i] = -z[i];
   return z;
@@ -70,7 +70,7 @@ double distance(const State<double>& a, const State<double>& b) {
 
 double size_of(const State<double>& z) { return distance(z, State<double>(z.size())); }
 
-/// The largest row sum of |M|, at least 1.
+/// Returns the largest row sum of |M|, at least 1.
 double norm(const Rows& m) {
   double largest = 1;
   for (const auto& row : m) {
@@ -81,8 +81,8 @@ double norm(const Rows& m) {
   return largest;
 }
 
-/// The exact Jacobian against (Psi(z + d e) - Psi(z - d e))/(2 d) of the map itself in long double. With d = 2^-16 the
-/// truncation is d^2 Psi'''/6, some 4e-11 Psi''', the rounding 2^-64/d, 4e-15.
+/// Compares the exact Jacobian with (Psi(z + d e) - Psi(z - d e))/(2 d) of the same map in long double. With d = 2^-16
+/// the truncation error is d^2 Psi'''/6, about 4e-11 Psi''', and the rounding error 2^-64/d is 4e-15.
 void add_jacobian_mismatch(const StepMap& map, const State<double>& z, double h, const Rows& exact, Defects& defects) {
   constexpr long double d = 0x1p-16L;
   for (std::size_t j = 0; j < z.size(); ++j) {
@@ -98,7 +98,7 @@ void add_jacobian_mismatch(const StepMap& map, const State<double>& z, double h,
   }
 }
 
-/// Everything with steps of length h.
+/// Measures all properties with steps of size h.
 void measure_with(const StepMap& map, const Region& region, double h, Measurement& found) {
   Defects jacobian;
   Defects symplectic;
@@ -121,7 +121,7 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
     const auto add = [&](double defect, double terms) { symplectic.add(defect, terms); };
     directions.empty() ? for_each_symplectic_defect(m, add) : for_each_symplectic_defect_along(m, directions, add);
 
-    // What the second step makes of the rounding of the first is at most the norm of its Jacobian.
+    // The second step amplifies the rounding error of the first by at most the norm of its Jacobian.
     const double size = size_of(z) * norm(m);
     const auto step = [&](const std::optional<State<double>>& from, double length) -> std::optional<State<double>> {
       if (!from) return std::nullopt;
@@ -138,8 +138,8 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
     compare(symmetric, step(forward, -h), z);
     compare(reversible, turned(step(turned(forward), h)), z);
   }
-  // In units of the Jacobian's norm: 2^-26 is far above the truncation of the divided difference, 2^-12 far below the
-  // contribution of any action of a step.
+  // In units of the Jacobian's norm: 2^-26 is far above the truncation error of the divided difference, and 2^-12 is
+  // far below the contribution of any operation of a step.
   found.jacobian = jacobian.found(0x1p-26 / epsilon, 0x1p-12 / epsilon);
   found.symplectic = symplectic.found();
   found.weakly_reversible = weak.found();
@@ -149,9 +149,10 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
 }  // namespace
 
 void measure_structure(const StepMap& map, const Region& region, Measurement& found) {
-  // A twentieth of a period: defects of order 6 and more have to be seen. Those of order 8 h^9 need a seventh of a
-  // period where they are claimed to be there. Where an implicit method is not said to be symplectic and neither is nor
-  // is not so by the rounding of that step, its order hides the defect: steps up to a whole period show it.
+  // A twentieth of a period makes defects of order 6 visible. Methods of order 8 that are not claimed to be symplectic
+  // have defects ~ h^9, which need a seventh of a period. If an implicit method does not claim to be symplectic, and
+  // the rounding of that step leaves its symplecticity unclear, its high order may hide the defect. Then larger steps
+  // are tried, up to a whole period.
   const MethodInfo claims = map.claims();
   double h = (claims.order > 6 && !claims.symplectic ? 9 : 3) * region.step;
   measure_with(map, region, h, found);
@@ -160,7 +161,7 @@ void measure_structure(const StepMap& map, const Region& region, Measurement& fo
     h *= 2;
     Measurement longer = found;
     measure_with(map, region, h, longer);
-    if (longer.jacobian.holds != Finding::yes) break;  // no step that long
+    if (longer.jacobian.holds != Finding::yes) break;  // this step is too large
     found = longer;
   }
 }

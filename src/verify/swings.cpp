@@ -5,8 +5,9 @@
 namespace hamflow {
 
 namespace {
-// Of samples at random places each meets a peak with the part of a period that it lasts as chance. Sixteen times as
-// many as meet one on average, 32 of a sine, all miss it once in 10^7.
+// A sample at a random place meets a peak with a probability equal to the part of the period that the peak lasts. If
+// samples are 16 times as many as needed to meet one on average (32 for a sine), all of them miss the peak once in 10^7
+// cases.
 constexpr double never_missed = 16;
 }  // namespace
 
@@ -45,8 +46,8 @@ void Swings::look(std::int64_t step, double x) {
 }
 
 void Swings::turn(std::int64_t step) {
-  // Of an orbit whose axis turns a coordinate widens from turn to turn. What doubles the range after a whole period
-  // is seen against that of the latest turn.
+  // On an orbit whose axis rotates, a coordinate widens from turn to turn. Therefore a doubling of the range after a
+  // whole period is measured against the range at the latest turn.
   if (turns_ >= 2) counted_range_ = most_ - least_;
   const std::int64_t gap = at_ - latest_turn_;
   const std::int64_t stay = step - noticed_;
@@ -55,7 +56,7 @@ void Swings::turn(std::int64_t step) {
   if (turns_ > 0) longest_gap_ = std::max(longest_gap_, gap);
   if (turns_ >= enough_turns) {
     const double turns = static_cast<double>(gap) / half_period();
-    // A gap that samples so far apart hardly explain, once in 3000, is one slow swing.
+    // A gap that missed samples hardly explain (once in 3000 cases) counts as one slow oscillation.
     later_turns_ += static_cast<double>(gap) <= std::max(6 * half_period(), missed() / 2) ? turns : 1;
     return;
   }
@@ -65,7 +66,7 @@ void Swings::turn(std::int64_t step) {
   ++turns_;
 }
 
-/// How long there may be no turn among the samples although the oscillation goes on; 0: none can be missed.
+/// Returns the time for which samples may show no turn although the oscillation continues; 0: no turn can be missed.
 double Swings::missed() const {
   const double apart = static_cast<double>(apart_);
   const double stay = static_cast<double>(shortest_stay_);
@@ -77,7 +78,7 @@ std::optional<Swings::Seen> Swings::seen(std::int64_t steps_taken) const {
   if (turns_ == 1) return Seen{0.5, false, latest_turn_};
   const auto silence = static_cast<double>(steps_taken - latest_turn_);
   const bool is_over = silence > std::max(6 * static_cast<double>(longest_gap_), missed());
-  // Before the first turn and after the last one there is at most the way to it, but for what may have been missed.
+  // Before the first turn and after the last one there is at most half a period, unless turns may have been missed.
   const double begun = static_cast<double>(first_turn_) / half_period();
   const double before = earlier_turns_ > 0 ? begun : std::min(begun, 1.0);
   const double ended = silence / half_period();

@@ -6,9 +6,10 @@
 
 namespace hamflow {
 
-/// The entries of M^T J M - J for a 2n x 2n matrix M by rows, J = ((0, I), (-I, 0)): all 0 where M is symplectic.
-/// Antisymmetric, to the last bit, so that the entries (a, b) with a > b are all there is.   [HLW2006, Def. VI.2.1]
-/// @param take is called with the absolute value of each entry and the sum of the absolute values of its terms
+/// Visits the entries of M^T J M - J for a 2n x 2n matrix M given by rows, J = ((0, I), (-I, 0)). They are all 0 if M
+/// is symplectic. The matrix is antisymmetric bit for bit, so only entries (a, b) with a > b are visited.   [HLW2006,
+/// Def. VI.2.1]
+/// @param take called with the absolute value of each entry and the sum of the absolute values of its terms
 template <class Take>
 void for_each_symplectic_defect(const std::vector<std::vector<double>>& m, Take take) {
   const std::size_t n = m.size() / 2;
@@ -27,7 +28,8 @@ void for_each_symplectic_defect(const std::vector<std::vector<double>>& m, Take 
   }
 }
 
-/// The same along some directions: b_a^T (M^T J M - J) b_b. A map of a manifold is symplectic on its tangent spaces.
+/// The same along some directions: b_a^T (M^T J M - J) b_b. A map of a manifold is symplectic on the tangent spaces of
+/// the manifold.
 template <class Take>
 void for_each_symplectic_defect_along(const std::vector<std::vector<double>>& m,
                                       const std::vector<std::vector<double>>& directions, Take take) {

@@ -7,17 +7,17 @@ namespace hamflow {
 
 namespace {
 
-/// Where a parabola through three neighbours has its vertex.
+/// Returns the vertex of a parabola through three neighbours.
 double vertex(const std::vector<double>& x, std::size_t at) {
   const double curvature = x[at - 1] - 2 * x[at] + x[at + 1];
   const double shift = curvature == 0 ? 0 : (x[at - 1] - x[at + 1]) / (2 * curvature);
   return static_cast<double>(at) + std::clamp(shift, -0.5, 0.5);
 }
 
-/// The places of maxima and minima, in turn, from which the series came back by more than `noise`.
+/// Returns the places of alternating maxima and minima from which the series moved back by more than `noise`.
 std::vector<double> turns(const std::vector<double>& x, double noise) {
   std::vector<double> places;
-  int direction = 0;  // not known yet
+  int direction = 0;  // unknown
   std::size_t extreme = 0;
   for (std::size_t i = 1; i < x.size(); ++i) {
     const double back = direction == 0 ? std::abs(x[i] - x[0]) : direction * (x[extreme] - x[i]);
@@ -91,7 +91,7 @@ std::optional<FastestTurns> TurnWatch::in_window() const {
   if (rows < fewest_periods + 2) return std::nullopt;
   std::vector<std::vector<double>> series(width_, std::vector<double>(rows));
   std::vector<double> largest(width_, 0);
-  double range = 0;  // of the coordinate that moves most
+  double range = 0;  // range of the coordinate that moves most
   for (std::size_t j = 0; j < width_; ++j) {
     for (std::size_t i = 0; i < rows; ++i) {
       series[j][i] = samples_[i * width_ + j];
@@ -103,7 +103,7 @@ std::optional<FastestTurns> TurnWatch::in_window() const {
   if (!std::isfinite(range)) return std::nullopt;
   std::optional<FastestTurns> best;
   for (std::size_t j = 0; j < width_; ++j) {
-    // What rounding, or a loose tolerance, makes of a coordinate that stands still is no oscillation.
+    // The noise that rounding or a loose tolerance causes in a coordinate at rest is not an oscillation.
     const auto steps = median_period(series[j], std::max(1e-6 * range, 1e-9 * largest[j]));
     if (steps && (!best || *steps * std::abs(dt_) < best->period)) best = {*steps * std::abs(dt_), dt_, j * stride_};
   }

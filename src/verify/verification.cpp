@@ -37,7 +37,7 @@ std::vector<MethodSpec> methods_of(const VerificationRequest& request) {
   return specs;
 }
 
-/// The problem as a scenario means it by default; where a method cannot run there, in the first variant where all can.
+/// Returns the default variant of the problem, or the first variant that all methods can integrate.
 Region region_for(const std::string& problem, const std::vector<MethodSpec>& specs) {
   const auto accepted = [&](const ProblemEntry& entry) {
     return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
@@ -51,7 +51,8 @@ Region region_for(const std::string& problem, const std::vector<MethodSpec>& spe
   return region_of(problem);
 }
 
-/// A method, and where: without a region at walls on the given ones, or on its own.
+/// A method and the region at walls where it is measured. Without one, the given regions or those of the method are
+/// used.
 struct Job {
   MethodSpec spec;
   std::optional<Region> at_walls{};
@@ -59,7 +60,7 @@ struct Job {
 
 }  // namespace
 
-/// The caller's thread only waits. After an interrupt it can so return the rows that are finished.
+/// The caller's thread only waits, so that it can return the finished rows after an interrupt.
 class Verification::Impl {
  public:
   explicit Impl(const VerificationRequest& request) {
@@ -70,12 +71,12 @@ class Verification::Impl {
       throw Rejection(option_name("problem"), error.what());
     }
     for (const Region& region : given_) {
-      for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
+      for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws if the problem is refused
     }
     const auto at_walls = given_.empty() ? std::nullopt : region_at_walls(request.problem);
     for (const MethodSpec& spec : specs) {
       jobs_.push_back({spec});
-      // A second copy of the state meets walls elsewhere.
+      // Methods that carry a second copy of the state are not measured, because the copy meets walls at other times.
       if (at_walls && !describe(spec).carries_copy && find_problem(*at_walls)->accepts(spec)) {
         jobs_.push_back({spec, at_walls});
       }
@@ -127,7 +128,7 @@ class Verification::Impl {
         const std::lock_guard lock(mutex_);
         measured_[i] = std::move(row);
       }
-    } catch (const MeasuringStopped&) {  // what is measured stays as it is
+    } catch (const MeasuringStopped&) {  // finished measurements are kept
     } catch (...) {
       next_ = jobs_.size();
       const std::lock_guard lock(mutex_);
@@ -147,7 +148,7 @@ class Verification::Impl {
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable finished_;
-  std::vector<Thread> helpers_;  // the last member: they end before what they use
+  std::vector<Thread> helpers_;  // last member, so that the threads end before the members that they use
 };
 
 Verification::Verification(const VerificationRequest& request) : impl_(std::make_unique<Impl>(request)) {}

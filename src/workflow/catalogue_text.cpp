@@ -34,7 +34,7 @@ std::string flags(const MethodInfo& info) {
   return text;
 }
 
-/// Breaks a text into lines of at most 110 characters; from the second line on they are indented by two more.
+/// Breaks a text into lines of at most 110 characters. Lines after the first are indented by two more.
 std::string filled(const std::string& text, std::size_t indent = 2) {
   constexpr std::size_t widest = 110;
   std::string all;
@@ -84,7 +84,8 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
   return meant.empty() ? key_elsewhere(name) : meant;
 }
 
-/// The choices that lists print beside a problem. A typed problem has none, because its choices are its formulas.
+/// Returns the choices that lists print next to a problem. A typed problem has none, because its choices are its
+/// formulas.
 std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& entry) {
   if (entry.structure) return {};
   return {entry.info.variant.begin(), entry.info.variant.end()};
@@ -104,14 +105,14 @@ std::string structure_text(const FormulaStructure& structure) {
   return text + (structure.time ? ", dependent on t" : "");
 }
 
-/// The momentum of a declared coordinate, which is a name, (z1), or dots.
+/// Returns the momentum of a declared coordinate, which is a name, a name in parentheses such as (z1), or dots.
 std::string declared_momentum(const std::string& coordinate) {
   if (coordinate == "...") return coordinate;
   if (coordinate.front() != '(') return momentum_name(coordinate);
   return "(" + momentum_name(coordinate.substr(1));
 }
 
-/// The number of degrees of freedom as text; if it is not fixed, it follows from the start.
+/// Returns the number of degrees of freedom as text. If it is not fixed, it follows from the start.
 std::string degrees_of_freedom(const ProblemEntry& entry) {
   const std::size_t n = entry.dimension > 0 ? static_cast<std::size_t>(entry.dimension) : entry.info.default_q.size();
   if (!entry.constraint_form.empty()) return std::to_string(n) + ", minus one for each constraint";
@@ -136,7 +137,7 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
   for (const auto& [name, value] : scenario.request.parameters) {
     if (!value.empty()) out << fmt::format("  here: {} = {}\n", name, value);
   }
-  const bool box = scenario.problem->container == ContainerNames::box;  // the container stands for these walls
+  const bool box = scenario.problem->container == ContainerNames::box;  // the container represents these walls
   if (const auto& walls = scenario.request.walls; walls && !box) {
     for (const Walls::Interval& wall : walls->intervals) {
       out << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
@@ -234,7 +235,7 @@ void write_problem(std::ostream& out, const ProblemEntry& entry) {
   }
 }
 
-/// Writes a problem of which one choice, e.g. the potential, can be typed.
+/// Writes a problem with a choice that can be typed, for example the potential.
 void write_typed_choice(std::ostream& out, const ProblemInfo& info) {
   out << fmt::format(
       "{0} with {1} = \"formula\" and any {2}: you type the {1}, e.g. {3} (hamflow show formula explains formulas)\n",
@@ -261,7 +262,7 @@ void write_method(std::ostream& out, const MethodSpec& spec) {
       << "\n";
 }
 
-/// The line of a method in the list of all methods.
+/// Returns the line of a method in the list of all methods.
 std::string method_row(const MethodEntry& entry) {
   const MethodInfo info = describe(MethodSpec{.name = entry.name});
   return fmt::format("{:<16} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);

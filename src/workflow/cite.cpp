@@ -12,7 +12,7 @@ namespace hamflow {
 
 namespace {
 
-/// The entries of docs/references.bib by their keys. An entry begins with `@` at the start of a line.
+/// Returns the entries of docs/references.bib by their keys. An entry begins with `@` at the start of a line.
 const std::map<std::string, std::string>& references() {
   static const std::map<std::string, std::string> all = [] {
     std::map<std::string, std::string> entries;
@@ -38,7 +38,7 @@ std::string hamflow_entry() {
          "  note    = {Please give the version, and the method and the arithmetic of the run}\n}\n";
 }
 
-/// Adds the entries of a reference that are not there yet.
+/// Adds the entries of a reference that have not been added yet.
 void add_works(const std::string& reference, std::vector<std::string>& keys, std::string& text) {
   for (const std::string& key : cited_keys(reference)) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;

@@ -21,10 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A number that is too small for a double becomes a text.
+/// Writes a number, as text if it is too small for a double.
 Json json_of(const Magnitude& x) { return x.text.empty() ? Json(x.value) : Json(x.text); }
 
-/// The hint for a run that failed.
+/// Returns the hint for a run that failed.
 std::string hint_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   Request request = asked.request;
   const std::vector<std::string> names = comparison_names(asked.methods);
@@ -60,8 +60,8 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   return row;
 }
 
-/// For a gas: one warning that tells in how many runs particles may pass through each other within a step. Its numbers
-/// are those of the largest such step, at the start and, if it is known, at the end of the exact motion.
+/// Returns, for a gas, one warning that tells in how many runs particles may pass through each other within a step. Its
+/// numbers are those of the largest such step, at the start and, if it is known, at the end of the exact motion.
 std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& asked) {
   std::vector<Warning> all;
   const auto problem_entry = find_problem(asked.request);
@@ -170,7 +170,7 @@ WorkPrecision work_precision_of(const Comparison& c) {
     if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});
     last = p.method;
     WorkCurve& curve = data.curves.back();
-    if (p.order != curve.order) curve.order = 0;  // taylor chooses its order by the tolerance
+    if (p.order != curve.order) curve.order = 0;  // the order of taylor depends on the tolerance
     curve.evaluations.push_back(p.evaluations());
     curve.seconds.push_back(p.done() ? p.seconds : nothing);
     curve.error.push_back(p.done() ? p.error.value : nothing);

@@ -1,4 +1,4 @@
-// Reads and checks the request of a comparison: the methods and steps given with a scenario.
+// Reads and checks a request for a comparison: the methods and step sizes that are given with a scenario.
 #include <algorithm>
 #include <cmath>
 
@@ -55,7 +55,7 @@ class RequestReader {
   void complain(const std::string& key, const std::string& message) {
     complaints.push_back({scenario_.file, 0, 0, key, message});
   }
-  /// Complains about a key of the file, with its line and column if it is in the file.
+  /// Complains about a key of the file, with its line and column if the key is in the file.
   void complain_of(const std::string& key, const std::string& message) {
     const auto set = scenario_.settings.find(key);
     const bool in_file = set != scenario_.settings.end();
@@ -115,7 +115,7 @@ class RequestReader {
     return why_not.empty() ? "" : "problem.wall_rule = \"" + rule_of_walls(one) + "\" " + why_not;
   }
 
-  /// Keeps the text of dt if it divides the time exactly. The run is then bit for bit a single run with this dt.
+  /// Keeps the text of dt if it divides the time exactly. Then the run is bit for bit a single run with this dt.
   void keep_dt(std::int64_t steps, const std::string& dt) {
     if (divides_exactly(dt, steps, request.t_end_text, request.request.arithmetic)) request.dts.emplace(steps, dt);
   }
@@ -172,7 +172,7 @@ class RequestReader {
   const bool varies_by_file_;
 };
 
-/// A method as a TOML table, including the options that it takes from [method] of the scenario.
+/// Returns a method as a TOML table, including the options that it takes from [method] of the scenario.
 std::string as_table(const std::string& name, SharedMethodKeys& shared) {
   std::string table = "{ " + method_name_key().name + " = \"" + name + "\"";
   try {
@@ -189,8 +189,8 @@ std::string as_table(const std::string& name, SharedMethodKeys& shared) {
   return table + " }";
 }
 
-/// Reads the scenario with any method of the comparison that it allows, since the file's own method is not run and may
-/// be wrong. An error that occurs with every method is an error of the scenario; an error that occurs with only one
+/// Reads the scenario with any method of the comparison that it allows, because the file's own method is not run and
+/// may be wrong. An error that occurs with every method is an error of the scenario; an error that occurs with only one
 /// method is an error of that method.
 Scenario scenario_with_any(const ComparisonInput& input, std::vector<std::string>& notes) {
   const Reading own = read_scenario_text(input.text, input.name, input.sets);
@@ -199,7 +199,8 @@ Scenario scenario_with_any(const ComparisonInput& input, std::vector<std::string
   std::vector<Complaint> of_methods;
   SharedMethodKeys shared(input.text, input.sets);
   for (const std::string& name : input.methods) {
-    if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);  // not a name
+    // the text is not a name
+    if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);
     std::vector<std::string> sets = input.sets;
     sets.push_back("method=" + as_table(name, shared));
     const Reading with = read_scenario_text(input.text, input.name, sets);

@@ -26,12 +26,12 @@ std::string row(const std::vector<double>& numbers) {
   return "[" + joined(numbers, [](double x) { return fmt::format("{:.17g}", x); }) + "]";
 }
 
-/// Why the scenario's method cannot run in the new coordinates; empty if it can.
+/// Explains why the scenario's method cannot run in the new coordinates; empty if it can.
 std::string refused_method(const Scenario& scenario, const std::string& to) {
   return refusal(scenario.request.method, *in_coordinates(scenario.problem, to));
 }
 
-/// The start of a run with all digits, in arithmetic with more digits than double.
+/// Returns the start of a run with all digits, in arithmetic with more digits than double.
 DigitState start_digits(const Scenario& scenario, const std::string& to) {
   Frame frame;
   make_simulation(scenario.request)->look(frame);
@@ -40,7 +40,7 @@ DigitState start_digits(const Scenario& scenario, const std::string& to) {
                      {frame.digits.q, frame.digits.p});
 }
 
-/// The start as a TOML table for `initial`, with all digits of the arithmetic.
+/// Returns the start as a TOML table for `initial`, with all digits of the arithmetic.
 std::string start_table(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
   const auto table = [](const std::string& q, const std::string& p) { return "{ q = " + q + ", p = " + p + " }"; };
   if (longest_digits(scenario.request.arithmetic) == 0) return table(toml_list(start.q), toml_list(start.p));
@@ -51,7 +51,8 @@ std::string start_table(const Scenario& scenario, const std::string& to, const C
   return table(list(state.q), list(state.p));
 }
 
-/// Whether output.observables has entries. The observables of the problem come first and exist in all its charts.
+/// Returns whether output.observables has entries. The observables of the problem come first and exist in all its
+/// charts.
 bool has_own_observables(const Scenario& scenario) {
   return scenario.observables.size() > scenario.problem->info.observables.size();
 }

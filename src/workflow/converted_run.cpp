@@ -84,7 +84,7 @@ class SampleConversion {
 
  private:
   bool has_digits() const { return given_.find("digits/t") != nullptr; }
-  /// A note if whole turns of an angle may be missing between samples; else empty.
+  /// Returns a note if whole turns of an angle may be missing between samples; else empty.
   std::string note_of_turns(const StateConverter& convert, const Table& states) const {
     const double largest = std::max(convert.largest_turn(), fastest_turn(convert.turning(), states));
     if (!(largest > most_certain_turn)) return {};
@@ -94,7 +94,7 @@ class SampleConversion {
         joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; }), largest);
   }
 
-  /// Converts a state in the arithmetic of the run and adds the whole turns of the state in double. Then rounds the
+  /// Converts a state in the arithmetic of the run and adds the whole turns of the state in double. Then it rounds the
   /// digits to double into `in_double`.
   DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
     DigitState state = in_chart_of(*target_, *without_own_walls(scenario_.problem), scenario_.request.parameters,
@@ -110,8 +110,8 @@ class SampleConversion {
     }
     return state;
   }
-  /// The largest product of the rate of an angle and the time to the next sample. It tells whether whole turns are
-  /// lost.
+  /// Returns the largest product of the rate of an angle and the time to the next sample. It shows whether whole turns
+  /// may be lost.
   double fastest_turn(const std::vector<std::size_t>& angles, const Table& states) const {
     double most = 0;
     const std::span<const double> t = given_["t"].numbers();

@@ -1,4 +1,4 @@
-// The text of a scenario in other coordinates. Whether its method can be used in them is checked elsewhere.
+// Text of a scenario in other coordinates. Other code checks whether its method can be used in them.
 #pragma once
 
 #include "hamflow/scenario/coordinates.hpp"
@@ -6,7 +6,7 @@
 
 namespace hamflow {
 
-/// Replaces a given state by `start`. An orbit and two bodies are kept: they mean the same in both coordinates.
+/// Replaces a given state by `start`. An orbit and two bodies are kept, because they mean the same in both coordinates.
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start);
 
 }  // namespace hamflow

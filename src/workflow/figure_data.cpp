@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 std::string drawn_by_sweep() { return "of a sweep: " + command_name("sweep --figure") + " draws it"; }
 
-/// Describes a folder that has no samples to draw; empty if its files do not tell what it is.
+/// Describes a folder that has no samples to draw; empty if its files do not show what it is.
 std::string what_is(const fs::path& folder) {
   std::error_code none;
   const auto has = [&](const char* name) { return fs::exists(folder / name, none); };
@@ -50,7 +50,7 @@ std::string what_is(const fs::path& folder) {
   return {};
 }
 
-/// The dimension of the space of bodies, or of one body with the coordinates x, y, z; else 0.
+/// Returns the dimension of the space of bodies, or of one body with the coordinates x, y, z; otherwise 0.
 std::size_t space_of(const Scenario& scenario, std::size_t size) {
   const ProblemEntry& problem = *scenario.problem;
   const Texts& parameters = scenario.request.parameters;
@@ -63,13 +63,13 @@ std::size_t space_of(const Scenario& scenario, std::size_t size) {
   return 0;
 }
 
-/// The names of the bodies, for problems whose bodies have well-known names.
+/// Returns the names of the bodies, for problems whose bodies have well-known names.
 std::vector<std::string> names_of_bodies(const std::string& problem) {
   if (problem == "solar-system") return {"Sun", "Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"};
   return {};
 }
 
-/// H - H0 computed with all digits, for arithmetic with more digits than double; else empty.
+/// Returns H - H0 computed with all digits, for arithmetic with more digits than double; else empty.
 std::vector<double> energy_differences(const Table& samples) {
   const Column* const energy = samples.find("digits/energy");
   if (energy == nullptr) return {};
@@ -80,19 +80,19 @@ std::vector<double> energy_differences(const Table& samples) {
   return differences;
 }
 
-/// The values of a column; empty if there is no such column.
+/// Returns the values of a column; empty if there is no such column.
 std::vector<double> values_of(const Table& table, const char* name) {
   const Column* const column = table.find(name);
   return column == nullptr ? std::vector<double>() : column->part(0);
 }
-/// Each coordinate of a column of states; empty if there is no such column.
+/// Returns each coordinate of a column of states; empty if there is no such column.
 std::vector<std::vector<double>> by_coordinate(const Table& table, const char* name) {
   std::vector<std::vector<double>> all;
   const Column* const column = table.find(name);
   for (std::size_t i = 0; column != nullptr && i < column->info().width; ++i) all.push_back(column->part(i));
   return all;
 }
-/// The columns of a group: NAME, or NAME_1, NAME_2, ... if a row has several numbers.
+/// Returns the columns of a group: NAME, or NAME_1, NAME_2, ... if a row has several numbers.
 std::vector<std::pair<std::string, std::vector<double>>> columns_in(const Table& table, const std::string& group) {
   std::vector<std::pair<std::string, std::vector<double>>> all;
   for (const Column& column : table.columns()) {
@@ -114,7 +114,7 @@ void add_section(const Section& section, const StateNames& names, const Table& p
   data.section_text = section_text(section, names);
 }
 
-/// The samples and the bounces, in the order of their times; empty if bounces are not located.
+/// Returns the samples and the bounces, in the order of their times; empty if bounces are not located.
 FigureSamples path_of(const Scenario& scenario, const FigureSamples& samples, const Table& bounces) {
   const auto& walls = scenario.request.walls;
   if (!walls || walls->rule != WallRule::event || bounces.rows() == 0) return {};
@@ -145,9 +145,10 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenar
     facts.emplace_back("walls", wall_rules()[static_cast<std::size_t>(walls->rule)]);
   }
   for (const auto& [key, value] : request.variant) {
-    if (!scenario.problem->structure) facts.emplace_back(key, value);  // for a typed problem these are long formulas
+    // the choices of a typed problem are long formulas
+    if (!scenario.problem->structure) facts.emplace_back(key, value);
   }
-  const std::vector<std::string> changes = changes_during_run(scenario.text);  // a changed setting is left out
+  const std::vector<std::string> changes = changes_during_run(scenario.text);  // a setting that changed is left out
   const auto sets_length = [](const std::string& change) { return change.starts_with(run_keys().dt.name + " = "); };
   const auto negates = [](const std::string& change) { return change == momenta_negated; };
   const auto is_of_method = [&](const std::string& change) { return !sets_length(change) && !negates(change); };
@@ -159,20 +160,20 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenar
   return facts;
 }
 
-/// "stv4", "dt = 0.1", "mass = 2".
+/// Returns a text such as "stv4", "dt = 0.1" or "mass = 2".
 std::string fact_text(const std::pair<std::string, std::string>& fact) {
   static const std::set<std::string> plain{"problem", "method", "arithmetic", "potential", "coordinates", "model"};
   if (plain.contains(fact.first)) return fact.second;
   return fact.first + " = " + fact.second;
 }
 
-/// Whether a fact is printed in the title if it is the same for all runs.
+/// Returns whether a fact is printed in the title if it is the same for all runs.
 bool in_title(const std::pair<std::string, std::string>& fact) {
   if (fact.first == "arithmetic") return fact.second != "double";
   return fact.first == "problem" || fact.first == "method" || fact.first == "dt";
 }
 
-/// The gas, or several bodies in space.
+/// Returns the particles of a gas, or several bodies in space.
 FigureParticles particles_of(const Scenario& scenario, std::size_t space, Positions positions) {
   FigureParticles all;
   if (scenario.problem->dimension != 0 || space < 2) return all;
@@ -189,7 +190,8 @@ FigureParticles particles_of(const Scenario& scenario, std::size_t space, Positi
   return all;
 }
 
-/// Whether a figure needs the energy. For many particles it costs as much as a step, so figures of positions skip it.
+/// Returns whether a figure needs the energy. For many particles the energy costs as much as a step, so figures of
+/// positions skip it.
 bool show_energy(const std::vector<std::string>& kinds) {
   return std::any_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
     return kind != "particles" && kind != "tracks" && kind != "radial" && !kind.empty();
@@ -280,7 +282,7 @@ RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const
   }
   data.observables = columns_in(samples, "observables/");
   data.invariants = columns_in(samples, "invariants/");
-  // The level curve of H continues behind walls, and it is not a trajectory if H depends on t.
+  // The level curve of H continues behind walls. If H depends on t, it is not a trajectory.
   if (problem.dimension == 1 && !data.has_time && !has_hard_walls(scenario.request)) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
@@ -331,7 +333,7 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
 FigureSamples first_steps_of(const RunForFigure& run) {
   const FigureData& samples = run.data;
   const Scenario& scenario = run.scenario;
-  if (samples.q.empty()) return {};                           // coordinates of many particles are not read
+  if (samples.q.empty()) return {};                           // the coordinates of many particles are not read
   if (!changes_during_run(scenario.text).empty()) return {};  // the first steps had other settings
   const double forward = scenario.dt < 0 ? -1 : 1;
   const std::size_t n = samples.q.size();

@@ -26,7 +26,7 @@ FigureOptions options_of(const FigureRequest& request) {
 
 namespace {
 
-/// Whether the kind draws a path. Then every one of the first steps is drawn, since samples may be far apart.
+/// Returns whether the kind draws a path. Then all of the first steps are drawn, because samples may be far apart.
 bool draws_path(const std::string& kind) { return kind == "orbit" || kind == "phase"; }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Structs as JSON. A template fields(ar, x) lists the keys and members of a struct once, in the order of the keys:
-// with a JsonWriter it writes them, with a JsonReader it reads them back.
+// Converts structs to JSON and back. A template fields(ar, x) lists the keys and members of a struct once, in the order
+// of the keys. With a JsonWriter it writes them, with a JsonReader it reads them.
 #pragma once
 
 #include <complex>
@@ -22,7 +22,7 @@ class JsonWriter {
   using Json = nlohmann::ordered_json;
   static constexpr bool reading = false;
 
-  /// Keys, each before its value. An optional without a value is null.
+  /// Writes keys and values, each key before its value. An optional without a value is written as null.
   template <class T, class... More>
   void operator()(const std::string& key, const T& x, const More&... more) {
     json_[key] = written(x);
@@ -51,7 +51,7 @@ class JsonWriter {
     for (const T& each : all) object[each.name] = written(each);
     json_[key] = std::move(object);
   }
-  /// An empty text is null.
+  /// Writes a text; an empty text is written as null.
   void text_or_null(const std::string& key, const std::string& x) { json_[key] = x.empty() ? Json(nullptr) : Json(x); }
   Json take() { return std::move(json_); }
 
@@ -91,7 +91,7 @@ class JsonWriter {
   Json json_ = Json::object();
 };
 
-/// A member whose key is missing keeps its value.
+/// Reads members. A member whose key is missing keeps its value.
 class JsonReader {
  public:
   using Json = nlohmann::ordered_json;
@@ -136,7 +136,7 @@ class JsonReader {
     if (has(key) && !json_[key].is_null()) (*this)(key, x);
   }
 
-  /// A list, or a single value.
+  /// Reads a list, or a single value.
   template <class T>
   static void read(const Json& json, std::vector<T>& all) {
     if (!json.is_array()) return read(json, all.emplace_back(blank<T>()));

@@ -7,9 +7,9 @@
 
 namespace hamflow {
 
-/// @param indent of each level; -1: one line. Bytes that are not UTF-8 are replaced.
+/// @param indent blanks of each level; -1: one line. Bytes that are not UTF-8 are replaced.
 std::string written_json(const nlohmann::ordered_json& json, int indent = -1);
-/// The format of files and of --json: each key on a separate line.
+/// Writes the format of files and of --json: each key on a separate line.
 std::string json_text(const nlohmann::ordered_json& json);
 /// @throws nlohmann::json::exception if the text is not JSON
 nlohmann::ordered_json read_json(const std::string& text);

@@ -16,13 +16,13 @@ namespace hamflow {
 namespace {
 
 constexpr int most_digits = 1000;
-/// With more digits, quadratures would take seconds.
+/// Limited, because with more digits quadratures would take seconds.
 constexpr int most_digits_of_integrals = 60;
 
 Mp power_of_ten(int exponent) { return parse_decimal<Mp>("1e" + std::to_string(exponent)); }
 
-/// Computes int_0^1 f(x, 1 - x) dx for two functions by the double exponential rule. x and 1 - x are both given with
-/// full relative precision. The step is halved until the relative change is below `tolerance`.   [TakahasiMori1974]
+/// Computes int_0^1 f(x, 1 - x) dx for two functions by the double exponential rule. x and 1 - x both have full
+/// relative precision. The step is halved until the relative change is below `tolerance`.   [TakahasiMori1974]
 /// @param nearest distance from the ends at which the sum stops; the rest is negligible compared with the tolerance
 template <class F>
 std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolerance, const Mp& nearest) {
@@ -54,7 +54,8 @@ std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolera
   return std::nullopt;
 }
 
-/// The radial motion with energy E and angular momentum l. The problem evaluates H, in the digits of the present scope.
+/// The radial motion with energy E and angular momentum l. The problem evaluates H with the digits of the current
+/// scope.
 class Orbit {
  public:
   Orbit(const Scenario& scenario, int digits) : digits_(digits), at_(scenario.request) {
@@ -76,8 +77,8 @@ class Orbit {
     size_ = kinetic + abs(energy_ - kinetic);
     polar_ = polar;
     at_.start = {};
-    // If the strength of V follows from the start, the parameters hold it only to double precision. It is corrected
-    // here.
+    // If the strength of V follows from the start, the parameters contain it only to double precision. This corrects
+    // it.
     const Mp given = energy_ - kinetic;
     const Mp found = potential(radius_);
     if (!(found == Mp(0))) strength_ = given / found;
@@ -86,7 +87,7 @@ class Orbit {
   const Mp& radius() const { return radius_; }
   const Mp& energy() const { return energy_; }
   const Mp& momentum() const { return momentum_; }
-  /// |T| + |V| at the start.
+  /// Returns |T| + |V| at the start.
   const Mp& size() const { return size_; }
   void move(const Mp& energy, const Mp& momentum) {
     energy_ += energy;
@@ -102,16 +103,16 @@ class Orbit {
     const Mp h = r * power_of_ten(-digits_ / 4);
     return (effective(r + h) - Mp(2) * effective(r) + effective(r - h)) / (h * h);
   }
-  /// The zero of E - V_eff near r, by Newton's method.
+  /// Returns the zero of E - V_eff near r, by Newton's method.
   std::optional<Mp> turning_point(const Mp& r) {
     return newton(r, [&](const Mp& x) { return Mp((effective(x) - energy_) / slope(x)); });
   }
-  /// The zero of V_eff' near r.
+  /// Returns the zero of V_eff' near r.
   std::optional<Mp> circular_radius(const Mp& r) {
     return newton(r, [&](const Mp& x) { return Mp(slope(x) / curvature(x)); });
   }
 
-  /// Time and phase from pericentre to apocentre, by the substitution r = r1 + (r2 - r1) sin^2(pi x/2).
+  /// Returns time and phase from pericentre to apocentre, by the substitution r = r1 + (r2 - r1) sin^2(pi x/2).
   std::optional<std::pair<Mp, Mp>> between(const Mp& r1, const Mp& r2, const Mp& tolerance) {
     const Mp quarter = pi_value<Mp>() / Mp(2);
     const Mp nearest = power_of_ten(-digits_ / 3);  // r - r1 and r2 - r are of the order of its square
@@ -127,7 +128,7 @@ class Orbit {
         },
         tolerance, nearest);
   }
-  /// The phase from pericentre to infinity, by the substitution 1/r = x/r1.
+  /// Returns the phase from pericentre to infinity, by the substitution 1/r = x/r1.
   std::optional<Mp> to_infinity(const Mp& r1, const Mp& tolerance) {
     const auto phase = integral_from_ends(
         [&](const Mp& x, const Mp&) {
@@ -140,7 +141,7 @@ class Orbit {
   }
 
  private:
-  /// V with the strength that the parameters have.
+  /// Evaluates V with the strength in the parameters.
   Mp potential(const Mp& r) {
     at_.start.q = {written_digits(r), "0"};
     at_.start.p = {"0", "0"};
@@ -171,7 +172,7 @@ class Orbit {
   Mp strength_{1};
 };
 
-/// The entries that have a value in more digits.
+/// Entries of the summary that are computed with more digits.
 struct Found {
   std::optional<Mp> r_min, r_max, circular_radius, apsidal_angle, radial_period;
 };
@@ -228,8 +229,8 @@ class Digits {
   Orbit orbit;
 };
 
-/// The sensitivity of each entry to the start: its change when the energy moves by a fraction of |T| + |V| and the
-/// angular momentum by the same fraction of itself, divided by this fraction; 0 if it is not known.
+/// Returns the sensitivity of each entry to the start: its change when the energy moves by a fraction of |T| + |V| and
+/// the angular momentum by the same fraction of itself, divided by this fraction; 0 if unknown.
 std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& scenario, const OrbitSummary& known) {
   Digits in(scenario, 20);
   const Mp part = power_of_ten(-12);

@@ -14,7 +14,8 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
     return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
   };
   if (from != nullptr) {
-    // A checkpoint is written after the samples of its step. It excludes a sample written only because the run ended.
+    // A checkpoint is written after the samples of its step. It excludes a sample that was only written because the run
+    // ended.
     const bool step_is_written = by_times() || from->step % scenario.record_every == 0;
     first_ = from->step + (step_is_written ? 1 : 0);
     last_ = step_is_written ? from->step : -1;

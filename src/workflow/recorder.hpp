@@ -18,8 +18,8 @@ namespace hamflow {
 class Recorder final : public Observer {
  public:
   /// @param folder empty: nothing is written
-  /// @param identity of the run   @param from the checkpoint of a resumed run; null: the run starts
-  /// @param restart_range Simulation::restart_energy_range(); a sample has the range since the sample before
+  /// @param identity identity of the run   @param from checkpoint of a resumed run; null: the run starts
+  /// @param restart_range Simulation::restart_energy_range(); a sample has the range since the previous sample
   /// @throws FileError
   Recorder(const Scenario& scenario, const std::filesystem::path& folder, const std::string& identity,
            const Checkpoint* from, std::function<void()> restart_range);
@@ -30,18 +30,18 @@ class Recorder final : public Observer {
   void append(const SectionPoint& point);
   /// Records a bounce, up to the number that the scenario allows.
   void append(const Bounce& bounce);
-  /// Whether more bounces are to be recorded.
+  /// Returns whether more bounces shall be recorded.
   bool wants_bounces() const;
   void append(std::size_t event, std::int64_t step, const SectionPoint& point);
 
-  /// Adds the last state as a sample if a run with samples by steps ended early.
+  /// If a run with samples by steps ended early, adds the last state as a sample.
   void finish(const Simulation& simulation);
   void flush();
   void flush_if_due();
   /// Forces the files to the disk and writes their lengths into the checkpoint, without a sample that exists only
-  /// because the run ended. This replaces archive(), since the lengths are read before the files are opened.
+  /// because the run ended. The recorder has no archive(), because the lengths are read before the files are opened.
   void mark(Checkpoint& checkpoint);
-  /// All records; null if not all of them are in memory.
+  /// Returns all records; null if not all of them are in memory.
   const RunTables* tables() const { return rows_ && rows_->complete() ? &rows_->tables() : nullptr; }
   /// Closes the files. The tables in memory are kept.
   void close() {
@@ -49,7 +49,7 @@ class Recorder final : public Observer {
     csv_.reset();
   }
   RunTables take_tables() { return rows_ ? rows_->take() : RunTables{}; }
-  /// The time of the sample whose partial step failed and ended the run; else nullopt.
+  /// Returns the time of the sample whose partial step failed and ended the run; else nullopt.
   std::optional<std::string> failed_at(std::int64_t step) const;
 
  private:
@@ -67,10 +67,10 @@ class Recorder final : public Observer {
   std::optional<RunRows> rows_;  // nullopt if only trajectory.csv is written
   std::unique_ptr<RunFile> h5_;
   std::unique_ptr<CsvFile> csv_;
-  std::int64_t first_ = 0;               // first step whose samples are still to be written
+  std::int64_t first_ = 0;               // first step whose samples have not been written
   std::int64_t last_ = -1;               // step of the last sample
   std::size_t written_ = 0;              // number of given times that were written
-  std::optional<Sizes> before_the_end_;  // sizes without the last sample, if it exists only because the run ended
+  std::optional<Sizes> before_the_end_;  // sizes without the last sample, if that exists only because the run ended
 };
 
 }  // namespace hamflow

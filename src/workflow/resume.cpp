@@ -27,7 +27,8 @@ std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std:
 std::string file_key(const Scenario& scenario) { return "problem." + scenario.problem->info.file_key; }
 std::string contents_key(const Scenario& scenario) { return file_key(scenario) + ": contents"; }
 
-/// The keys of a run with their values. If the start is read from a file, a further key holds the hash of its contents.
+/// Returns the keys of a run with their values. If the start is read from a file, a further key has the hash of its
+/// contents.
 std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   std::map<std::string, Setting> all = scenario.settings;
   if (!scenario.start_contents) return all;
@@ -38,7 +39,7 @@ std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   return all;
 }
 
-/// A value on one line. A long list is shortened to its first and last entries and their number.
+/// Writes a value on one line. A long list is shortened to its first and last entries and their number.
 std::string shown(const std::string& value) {
   constexpr std::size_t longest = 120, kept = 40;
   std::string line;
@@ -92,7 +93,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     }
   }
   for (const auto& [key, value] : before) {
-    // The file no longer exists; the start is read from run.h5.
+    // The file no longer exists, so the start is read from run.h5.
     if (key == contents_key(scenario) && !scenario.start_contents) continue;
     if (is_free_on_resume(key) || settings.contains(key)) continue;
     complain(key, "missing; allowed with " + option_name("resume") + " " + shown(value) + ", as when the run began");
@@ -151,7 +152,7 @@ std::optional<KeptSummary> own_summary(const Checkpoint& checkpoint, const fs::p
 
 bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const Summary& own) {
   if (own.status != "done") return false;  // the certificate may be missing
-  if (own.stopped_by) return true;         // an event ended the run: no step follows
+  if (own.stopped_by) return true;         // an event ended the run, so no step follows
   return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps;
 }
 
@@ -203,7 +204,7 @@ CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& s
       seconds_before_(checkpoint_.wall_seconds) {
   // Some keys may change when a run is resumed.
   Checkpoint now = first_checkpoint(scenario, checkpoint_.identity);
-  if (!scenario.start_contents) {  // the file is gone; keep the hash that its contents had when the run began
+  if (!scenario.start_contents) {  // the file no longer exists, so the hash from the start of the run is kept
     for (std::size_t i = 0; i < checkpoint_.keys.size(); ++i) {
       if (checkpoint_.keys[i] != contents_key(scenario)) continue;
       now.keys.push_back(checkpoint_.keys[i]);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* reversal_file = "reversal.bin";
 constexpr const char* reversal_record = "reversal";
-constexpr const char* forward_record = "there";  // data of the way forward, for warnings
+constexpr const char* forward_record = "there";  // record of the first half, for warnings
 constexpr double seconds_between = 10;
 
 std::uint64_t hash_of_text(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
@@ -100,7 +100,7 @@ ReversalCheckpoints::ReversalCheckpoints(const Scenario& scenario, Simulation& s
     checkpoint_.observers = from->observers;
     checkpoint_.step = from->step;
   }
-  write_checkpoint(file_, checkpoint_);  // marks the folder as one of this reversal, in case it is killed early
+  write_checkpoint(file_, checkpoint_);  // marks the folder as that of this reversal, in case it is killed early
 }
 
 std::int64_t ReversalCheckpoints::next_due(std::int64_t step) const {
@@ -130,7 +130,7 @@ void ReversalCheckpoints::write() {
 
 void ReversalCheckpoints::complete(const std::string& json) {
   checkpoint_.summary_hash = hash_of_text(json);
-  if (checkpoint_.simulation.empty()) {  // a short reversal: --resume compares only the scenario
+  if (checkpoint_.simulation.empty()) {  // a short reversal, for which --resume only compares the scenario
     checkpoint_.step = checkpoint_.steps;
   }
   write_checkpoint(file_, checkpoint_);

@@ -1,4 +1,4 @@
-// Checkpoints of a reversal, reversal.bin. A stopped reversal can be resumed on the way forward and on the way back.
+// Checkpoints of a reversal, reversal.bin. A stopped reversal can be resumed in both of its halves.
 #pragma once
 
 #include <chrono>
@@ -11,21 +11,21 @@
 
 namespace hamflow {
 
-/// The checkpoint of this scenario's reversal in the folder; nullopt if there is none.
-/// @throws Rejection if the scenario is another   @throws FileError
+/// Returns the checkpoint of this scenario's reversal in the folder; nullopt if there is none.
+/// @throws Rejection if it belongs to another scenario   @throws FileError
 std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const std::filesystem::path& folder);
-/// The text of reverse.json if the reversal is complete and the file is byte for byte the one that it wrote.
+/// Returns the text of reverse.json if the reversal is complete and the file is byte for byte the one that it wrote.
 std::optional<std::string> complete_reversal(const Checkpoint& checkpoint, const std::filesystem::path& folder);
 
 /// Writes checkpoints every given number of steps, or every ten seconds of wall time.
 class ReversalCheckpoints final : public Observer {
  public:
-  /// @param from the checkpoint of a resumed reversal, from which the simulation is restored; null: the reversal starts
+  /// @param from checkpoint of a resumed reversal, from which the simulation is restored; null: the reversal starts
   /// @throws FileError
   ReversalCheckpoints(const Scenario& scenario, Simulation& simulation, const std::filesystem::path& folder,
                       const Checkpoint* from);
   ReversalProgress& progress() { return progress_; }
-  /// The observer of the coordinates on the way forward.
+  /// Returns the observer of the coordinates during the first half.
   TurnWatch& turns() { return turns_; }
 
   std::int64_t next_due(std::int64_t step) const override;

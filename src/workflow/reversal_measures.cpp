@@ -9,7 +9,7 @@ namespace hamflow {
 
 namespace {
 
-/// The norm of the difference of two lists of numbers, divided by `divisor`.
+/// Returns the norm of the difference of two lists of numbers, divided by `divisor`.
 LongNumber difference_over(const std::vector<double>& a, const std::vector<double>& b,
                            const std::vector<std::string>& to, const std::vector<std::string>& from, double divisor) {
   std::vector<LongNumber> all;
@@ -32,7 +32,7 @@ LongNumber difference_over(const std::vector<double>& a, const std::vector<doubl
 
 double log10_of(const LongNumber& x) { return x.text.empty() ? std::log10(x.value) : Magnitude(x.text).log10; }
 
-/// log10 of half of the epsilon of an arithmetic.
+/// Returns log10 of half of the epsilon of an arithmetic.
 double log10_of_unit(const std::string& arithmetic) {
   const double half = std::log10(0.5);
   if (arithmetic == "double-double") return half - 104 * std::log10(2.0);

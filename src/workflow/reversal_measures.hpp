@@ -1,4 +1,4 @@
-// Measures of what a reversal lost: digits, and for bodies the return error of [Sonnleitner2010, p. 72].
+// Measures what a reversal has lost: digits, and for bodies the return error of [Sonnleitner2010, p. 72].
 #pragma once
 
 #include "hamflow/scenario/scenario.hpp"
@@ -7,11 +7,11 @@
 
 namespace hamflow {
 
-/// The number of bodies or particles in the state of a scenario; 0 if it has none.
+/// Returns the number of bodies or particles in the state of a scenario; 0 if it has none.
 std::size_t bodies_in(const Scenario& scenario);
 
-/// log10 of the relative distance divided by the rounding unit of the arithmetic (half of its epsilon); 0 if every
-/// digit returned.
+/// Returns log10 of the relative distance divided by the rounding unit of the arithmetic (half of its epsilon); 0 if no
+/// digit was lost.
 double digits_lost(const Reversal& reversal, const std::string& arithmetic);
 
 ReturnError return_error(const Reversal& reversal, std::size_t bodies);

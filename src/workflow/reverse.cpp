@@ -29,16 +29,16 @@ bool rejects_steps(const Scenario& scenario) {
   return walls && walls->rule == WallRule::reject;
 }
 
-/// Whether every bit returns. Methods on the lattice consist of kicks and drifts, which are bijections there; in a
-/// palindromic method each of them is undone by its mirror image.
+/// Returns whether a reversal is bit-exact. On the lattice, methods consist of kicks and drifts, which are bijections
+/// there. In a palindromic method each of them is undone by its mirror image.
 bool palindromic_on_lattice(const Scenario& scenario) {
   if (rejects_steps(scenario)) return false;
   return scenario.request.arithmetic == "lattice" && describe(scenario.request.method).symmetric;
 }
 
-/// The settings with which a palindromic splitting would return every bit. Empty if there are none: with constraints,
-/// for an H that no splitting can integrate, and with rejected steps. Located bounces are not possible on the lattice,
-/// but the wall rule "mirror" may be.
+/// Returns the settings with which a palindromic splitting would be reversed bit for bit. Empty if there are none: with
+/// constraints, for an H that no splitting can integrate, and with rejected steps. Located bounces are impossible on
+/// the lattice, but the wall rule "mirror" may be possible.
 std::string exact_return(const Scenario& scenario) {
   if (rejects_steps(scenario)) return {};
   Request request = scenario.request;
@@ -61,7 +61,7 @@ std::string exact_return(const Scenario& scenario) {
   return {};
 }
 
-/// The note for a method that is not reversible: whether the distance is larger than rounding explains.
+/// Returns the note for a method that is not reversible: whether the distance is larger than rounding explains.
 std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, const std::string& method) {
   const std::string begun = method + " is not reversible";
   if (r.bit_exact) return begun + ", but every bit returned: its reversibility defect is below rounding here";
@@ -72,10 +72,9 @@ std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, co
   return begun + ", but this reversal does not show it: " + evidence.reason;
 }
 
-/// The note that explains the distance.
-/// @param tolerance as it was given, else empty   @param irreversible makes the note for a method that is not
-/// reversible
-/// @param exact_with see exact_return
+/// Returns the note that explains the distance.
+/// @param tolerance tolerance as it was given, else empty   @param irreversible makes the note for a method that is not
+/// reversible   @param exact_with see exact_return
 std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
                     const std::string& why_not_reversed, bool expected,
                     const std::function<std::string()>& irreversible, const std::string& exact_with) {
@@ -106,15 +105,15 @@ const char* const nothing_returned = "the reversal did not finish, so there is n
 const char* const below_the_digits =
     "every digit of q and p returned, but digits carried below the last one did not, or a zero has the other sign";
 
-/// Shortens double-double texts to the 33 digits that the arithmetic carries. Texts that read back exactly have up to
-/// 98 digits if the two halves of a number are far apart; reverse.h5 has these.
+/// Shortens double-double texts to the 33 digits that the arithmetic has. Texts that read back exactly have up to 98
+/// digits if the two halves of a number are far apart; reverse.h5 contains these.
 std::vector<std::string> shown(std::vector<std::string> texts, const std::string& arithmetic) {
   if (arithmetic != "double-double") return texts;
   for (std::string& text : texts) text = rounded_decimal(text, 33);
   return texts;
 }
 
-/// @param dataset of reverse.h5 that holds the state; empty: no file holds it
+/// @param dataset dataset of reverse.h5 that contains the state; empty: no file does
 StateSummary state(const Frame& frame, const std::string& arithmetic, const char* dataset) {
   StateSummary all;
   all.is_large = frame.q.size() > most_named_coordinates;
@@ -129,7 +128,8 @@ StateSummary state(const Frame& frame, const std::string& arithmetic, const char
   return all;
 }
 
-/// Observes only the way forward: on the way back every coordinate turns, because the momenta were negated.
+/// Observes only the first half. At the beginning of the second half every coordinate turns, because the momenta are
+/// negated.
 class ForwardObserver final : public Observer {
  public:
   ForwardObserver(TurnWatch& turns, std::int64_t steps) : turns_(turns), steps_(steps) {}
@@ -144,7 +144,7 @@ class ForwardObserver final : public Observer {
   std::int64_t steps_;
 };
 
-/// Warnings about the motion that was reversed. Both ways are judged if the way back is the same motion.
+/// Returns warnings about the motion that was reversed. Both halves are judged if the second half is the same motion.
 std::vector<Warning> warnings_about(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
                                     bool same_motion, const Excursion& there, const TurnWatch& turns) {
   std::optional<OrbitSummary> orbit;
@@ -165,7 +165,7 @@ BodiesReturned bodies_returned(const Scenario& scenario, const Simulation& simul
   BodiesReturned all;
   if (done) all.error = return_error(r, bodies);
   const Effort effort = simulation.effort();
-  // A reversal that failed at once has no evaluations.
+  // A reversal whose first step failed has no evaluations.
   const bool by_forces_alone = (effort.force > 0 || !done) && effort.gradient == 0 && effort.hessian == 0;
   if (r.steps > 0 && !by_forces_alone) {
     if (effort.force > 0) all.force_evaluations = effort.force;
@@ -179,7 +179,7 @@ BodiesReturned bodies_returned(const Scenario& scenario, const Simulation& simul
   return all;
 }
 
-/// @param kept whether reverse.h5 has the states
+/// @param kept whether reverse.h5 contains the states
 ReversalSummary summary_of(const Scenario& scenario, const Simulation& simulation, const Reversal& r, bool kept) {
   const Request& request = scenario.request;
   const MethodInfo method = describe(request.method);
@@ -222,7 +222,7 @@ void fields(Ar& ar, ReturnError& x) {
   ar("position", x.position, "momentum", x.momentum, "position_rms", x.position_rms, "momentum_rms", x.momentum_rms);
 }
 
-/// The stored bits of the three states.
+/// Hashes of the stored bits of the three states.
 struct StateHashes {
   std::string &start, &turn, &end;
 };
@@ -281,7 +281,7 @@ std::string reversal_text(const ReversalSummary& s) {
     state_rows("returned", *s.returned);
     constexpr std::size_t most_groups = 4;
     std::vector<GroupDistance> groups = *s.distances;
-    if (groups.size() > most_groups) {  // only the group with the largest relative distance
+    if (groups.size() > most_groups) {  // lists only the group with the largest relative distance
       const auto furthest = std::ranges::find_if(groups, [&](const GroupDistance& each) {
         return each.relative.value == s.relative_distance->value && each.relative.text == s.relative_distance->text;
       });

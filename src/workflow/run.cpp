@@ -25,7 +25,7 @@ void note(const RunSettings& settings, const std::string& text) {
   if (settings.note) settings.note(text);
 }
 
-/// The scenario with the spacing of samples that the run had when it began.
+/// Returns the scenario with the spacing of samples that the run had when it began.
 Scenario with_spacing_of(const Checkpoint& checkpoint, Scenario scenario, const RunSettings& settings) {
   if (scenario.record_every != checkpoint.record_every && scenario.record.empty()) {
     scenario.record_every = checkpoint.record_every;
@@ -45,10 +45,11 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
   }
 }
 
-constexpr double grace = 0.4;  // seconds that the certificate, and then the figures, may take after Ctrl-C
+constexpr double grace = 0.4;  // grace period after Ctrl-C in seconds, for the certificate and then for the figures
 
-/// Draws the figures. After an interrupt they are drawn, too, if that takes no longer than the grace period.
-/// @param asked_before whether a stop was requested   @param tables of the run; null: they are read from its folder
+/// Draws the figures. After an interrupt they are drawn only if that takes no longer than the grace period.
+/// @param asked_before whether a stop was requested   @param tables tables of the run; null: they are read from its
+/// folder
 void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, bool asked_before,
           const RunTables* tables, RunReport& report) {
   const auto begin = std::chrono::steady_clock::now();
@@ -71,10 +72,10 @@ bool has_its_figures(const Scenario& scenario, const fs::path& folder) {
   });
 }
 
-/// One run, from its start or a checkpoint to its end.
+/// A run, from its start or from a checkpoint to its end.
 class ScenarioRun {
  public:
-  /// @param folder null: nothing is written   @param last the checkpoint in the folder; null: the folder is made
+  /// @param folder null: nothing is written   @param last checkpoint in the folder; null: the folder is made
   ScenarioRun(const Scenario& scenario, const RunSettings& settings, WorkFolder* folder, const Checkpoint* last)
       : scenario_(scenario),
         settings_(settings),
@@ -87,12 +88,13 @@ class ScenarioRun {
       seconds_before_ = from->wall_seconds;
     }
     if (writes()) {
-      for (Observer* observer : settings.observers) {  // throws now, not at the first checkpoint
+      // an observer without archive() throws now instead of at the first checkpoint
+      for (Observer* observer : settings.observers) {
         Writer probe;
         observer->archive(probe);
       }
       folder_->prepare(scenario);
-      if (last == nullptr) {  // marks the folder as one of this run, in case it is killed early
+      if (last == nullptr) {  // marks the folder as that of this run, in case it is killed early
         begin_.emplace(first_checkpoint(scenario_, new_identity()));
         write_checkpoint(settings.folder / "checkpoint.bin", *begin_);
         last = &*begin_;
@@ -119,14 +121,15 @@ class ScenarioRun {
       if (recorder_) observers_.push_back(recorder_.get());
       return;
     }
-    folder_->remove("summary.json");  // belongs to the part before
+    folder_->remove("summary.json");  // belongs to the previous part
     checkpoints_ = std::make_unique<CheckpointWriter>(scenario_, *simulation_, *recorder_, std::move(archived),
                                                       settings.folder, *last);
     observers_.push_back(recorder_.get());
-    observers_.push_back(checkpoints_.get());  // the last one: a checkpoint includes all observations of its step
+    observers_.push_back(checkpoints_.get());  // last, so that a checkpoint includes all observations of its step
   }
 
-  /// Whether a file holds the final state. Samples by steps include it; samples at given times may.
+  /// Returns whether a file contains the final state. Samples by steps include it; samples at given times may include
+  /// it.
   bool keeps_final_state() const {
     const auto& formats = scenario_.formats;
     if (!writes() || std::find(formats.begin(), formats.end(), "h5") == formats.end()) return false;
@@ -145,21 +148,21 @@ class ScenarioRun {
     result.steps_taken = simulation_->step();
     step_seconds_ = (result.wall_seconds - seconds_before_) /
                     static_cast<double>(std::max<std::int64_t>(1, result.steps_taken - first));
-    // This happens after the last checkpoint was written, because a resumed run does not end here.
+    // This happens after the last checkpoint was written, because a longer run that resumes from it does not end here.
     Frame end;
     simulation_->look(end);
     measures_->reach_the_end(end);
     RunReport report;
     std::optional<RunCertificate> certificate;
     if (!scenario_.map) {
-      // Without a certificate only the sizes of energies are needed, and no further steps are taken.
+      // Without a certificate only the sizes of energies are needed, so no further steps are taken.
       const GoOn no_steps = [] { return false; };
       certificate =
           certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
                   scenario_.certificate ? going_on(result.outcome == Outcome::stopped, result.steps_taken) : no_steps);
       const auto& reversal = certificate->reversal;
       certificate_stopped_ = scenario_.certificate && reversal && reversal->was_stopped;
-      if (certificate_stopped_) result.outcome = Outcome::stopped;  // the certificate is not complete
+      if (certificate_stopped_) result.outcome = Outcome::stopped;  // the certificate is incomplete
     }
     report.summary =
         summary_of(scenario_, *simulation_, result, certificate ? &*certificate : nullptr, &*measures_, &turns_);
@@ -184,7 +187,7 @@ class ScenarioRun {
     return report;
   }
 
-  /// The report of a run that was complete already, from its checkpoint and its stored summary.
+  /// Returns the report of a run that was already complete, from its checkpoint and its stored summary.
   RunReport complete(KeptSummary kept) {
     RunReport report;
     report.was_complete = true;
@@ -201,8 +204,8 @@ class ScenarioRun {
     setup_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return made;
   }
-  /// Tells whether the work after the steps may continue. If a stop was requested, it may take `grace` seconds: no step
-  /// and no set-up of a simulation begins that would take longer.
+  /// Returns a function that tells whether the work after the steps may continue. If a stop was requested, it may take
+  /// `grace` seconds: no step and no set-up of a simulation begins that would take longer.
   GoOn going_on(bool asked_before, std::int64_t step) const {
     if (!asked_before) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
     return [this, begin = std::chrono::steady_clock::now()] {
@@ -234,7 +237,7 @@ class ScenarioRun {
         recorder_->finish(*simulation_);
         if (checkpoints_ && status_of(result.outcome) != "failed") checkpoints_->write();
       }
-    } catch (const FileError& error) {  // e.g. a full disk; the results are reported anyway
+    } catch (const FileError& error) {  // for example a full disk; the results are reported nevertheless
       result.file_trouble = error.what();
     }
     if (is_failure(result.outcome) && result.failure.empty()) result.failure = simulation_->failure();
@@ -280,7 +283,7 @@ class ScenarioRun {
   double setup_seconds_ = 0;  // time to set up the simulation
   std::unique_ptr<Simulation> simulation_;
   double seconds_before_ = 0;
-  double step_seconds_ = 0;  // mean time of a step, observers included
+  double step_seconds_ = 0;  // mean time of a step, including observers
   std::optional<Checkpoint> begin_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;

@@ -17,7 +17,7 @@ namespace {
 
 bool is_solar_system(const Scenario& scenario) { return scenario.request.problem == SolarSystem<double>::name; }
 
-/// The masses of the bodies in order; one entry if the problem has one mass.
+/// Returns the masses of the bodies in order; one entry if the problem has one mass.
 std::vector<double> masses_of(const Scenario& scenario) {
   const Parameters<double> parameters(scenario.request.parameters);
   for (const char* name : {"masses", "mass"}) {
@@ -26,7 +26,7 @@ std::vector<double> masses_of(const Scenario& scenario) {
   return is_solar_system(scenario) ? SolarSystem<double>::masses() : std::vector<double>();
 }
 
-/// The units of columns. Only the solar system has built-in numbers; all other problems have the units of the input.
+/// Units of columns. Only the solar system has built-in numbers; all other problems have the units of the input.
 struct Units {
   std::string length, momentum, angular_momentum;
   ColumnUnits columns{};
@@ -54,7 +54,7 @@ std::string unit_of(const InvariantInfo& invariant, const Units& units) {
   return "";
 }
 
-/// The data of a gas for the H5MD groups; empty for other problems.
+/// Returns the data of a gas for the H5MD groups; empty for other problems.
 H5mdParticles particles_of(const Scenario& scenario) {
   H5mdParticles all;
   const ProblemEntry& problem = *scenario.problem;

@@ -1,4 +1,4 @@
-// Texts about a Poincare section for figures and summaries.
+// Texts on a Poincare section for figures and summaries.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,13 +12,13 @@
 
 namespace hamflow {
 
-/// The coordinate that is drawn, with its momentum: the one after the coordinate of the section; the first one if the
-/// section is one in time.
+/// Returns the coordinate that is drawn with its momentum: the one after the coordinate of the section; the first one
+/// if the section is defined by time.
 inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
   return section.by_time_alone ? 0 : (section.coordinate + 1) % size;
 }
 
-/// "section x = 0, x increasing", enhanced text.
+/// Returns "section x = 0, x increasing" as enhanced text.
 inline std::string section_text(const Section& section, const StateNames& names) {
   if (section.every_step) return "every step of the map";
   const std::string x = section.expression

@@ -40,7 +40,7 @@ Effort sum(const Effort& a, const Effort& b) {
   return all;
 }
 
-/// The method as a TOML table for [method].
+/// Returns the method as a TOML table for [method].
 std::string method_table(const MethodSpec& method) {
   std::string text = "{ " + method_name_key().name + " = \"" + method.name + "\"";
   for (const OptionInfo& option : find_method(method.name).family->options) {
@@ -50,7 +50,7 @@ std::string method_table(const MethodSpec& method) {
   return text + " }";
 }
 
-/// Methods that have the option, one of each family.
+/// Returns methods that have the option, one of each family.
 std::string methods_with(const std::string& option) {
   std::vector<std::string> names;
   for (const MethodFamily& family : method_families()) {
@@ -160,8 +160,8 @@ void Session::set_tolerance(const std::string& text) {
   remember(request_.method);
 }
 
-/// Refuses a change if H depends on t: a new simulation would start at t = 0, and negated momenta do not reverse
-/// H(q, p, t).
+/// Refuses a change if H depends on t: a new simulation would start at t = 0, and negated momenta do not reverse H(q,
+/// p, t).
 void Session::refuse_time(const std::string& what) const {
   if (!scenario_.problem->structure || !scenario_.problem->structure->time) return;
   throw Error("found " + what + " after step " + std::to_string(step()) +
@@ -169,7 +169,7 @@ void Session::refuse_time(const std::string& what) const {
 }
 
 void Session::change(const Request& next, const std::string& what) {
-  if (one_part_ && simulation_->step() == 0) {  // restart from the given start, with all its digits
+  if (one_part_ && simulation_->step() == 0) {  // restarts from the given start, with all its digits
     const Request before = std::exchange(request_, next);
     try {
       restart();
@@ -234,7 +234,7 @@ Scenario Session::present() const {
 
 bool Session::wants_bounces() const { return std::ssize(bounces_) < scenario_.record_events; }
 
-/// Collects the bounces of the present part. Its steps and times count from the start of the part.
+/// Collects the bounces of the current part, whose steps and times count from the start of the part.
 void Session::listen() {
   listens_ = wants_bounces();
   if (!listens_) return;
@@ -271,7 +271,7 @@ void Session::look(Frame& frame) const {
   in_session(frame);
 }
 
-/// Changes steps, times and evaluations of the present part to those of the session.
+/// Changes steps, times and evaluations of the current part to those of the session.
 void Session::in_session(Frame& frame) const {
   frame.step += step_before_;
   frame.time += time_before_;
@@ -377,7 +377,7 @@ void Session::watch(const Frame& frame) {
   }
 }
 
-/// The norm of the deviation of the k-th invariant from its reference.
+/// Returns the norm of the deviation of the k-th invariant from its reference.
 double Session::deviation(const std::vector<double>& values, std::size_t k) const {
   std::size_t at = 0;
   for (std::size_t i = 0; i < k; ++i) at += sizes_[i];

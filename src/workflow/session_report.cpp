@@ -1,4 +1,4 @@
-// Writes the summary and the folder of a session.
+// Makes the summary and writes the folder of a session.
 #include <algorithm>
 
 #include "csv_file.hpp"
@@ -22,7 +22,7 @@ Summary session_summary(const Session& session, const SessionOutcome& last) {
   if (all.changes.empty()) return all;
   all.diagnostics.reset();  // they only cover the last part
   if (session.reversed()) {
-    all.exact.reset();  // these two follow from the start, which is on another orbit now
+    all.exact.reset();  // both follow from the start, which is now on another orbit
     all.bodies.clear();
   }
   return all;
@@ -37,7 +37,7 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   RunDescription description = description_of(present, kept.size());
   description.events.clear();
   description.section = false;       // a session does not search for section points
-  description.energy_range = false;  // every part of the session has a range of its own
+  description.energy_range = false;  // each part of the session has its own range
   const auto falls = [](const Frame& a, const Frame& b) { return !(a.time < b.time); };
   description.particles.time_grows = std::adjacent_find(kept.begin(), kept.end(), falls) == kept.end();
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));

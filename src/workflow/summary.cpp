@@ -41,7 +41,7 @@ void set(Value::Table& table, const std::string& name, Value value) {
   }
 }
 
-/// @param exponent the key of the exponent of the walls
+/// @param exponent key of the exponent of the walls
 void add_walls(const Walls& walls, const std::string& exponent, Value::Table& parameters) {
   const WallKeys& keys = wall_keys();
   Value::List all;
@@ -67,9 +67,9 @@ Value::Table parameters_of(const Scenario& scenario) {
   Value::Table parameters;
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
   for (const auto& [key, value] : scenario.problem->info.variant) {
-    // The choices of the problem `formula` are formulas, which the scenario has. The parameters follow below.
+    // The choices of the problem `formula` are formulas, which are in the scenario. The parameters follow below.
     if (has_typed_hamiltonian(*scenario.problem) || key == FormulaKeys::parameters) continue;
-    const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
+    const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // as in dimension = 3
     set(parameters, key, is_number ? Value(std::stoi(value)) : Value(value));
   }
   if (const auto& walls = scenario.request.walls) {
@@ -77,7 +77,7 @@ Value::Table parameters_of(const Scenario& scenario) {
       // The parameters of the box define the walls.
       set(parameters, wall_keys().wall_rule.name, wall_rules()[static_cast<std::size_t>(walls->rule)]);
     } else {
-      // A gas in a soft circle has an exponent already, the one of its container.
+      // A gas in a soft circle already has an exponent, that of its container.
       const std::string& exponent = wall_keys().exponent.name;
       add_walls(*walls, has_parameter(*scenario.problem, exponent) ? "wall_" + exponent : exponent, parameters);
     }
@@ -106,7 +106,8 @@ Value::Table parameters_of(const Scenario& scenario) {
   return parameters;
 }
 
-/// The smallest and the largest value of each over every step, with the time at the end of that step.
+/// Returns the smallest and the largest value of each quantity over all steps, with the times at the ends of those
+/// steps.
 DiagnosticsSummary diagnostics_of(const StepDiagnostics& d, double dt) {
   const auto range = [&](const StepDiagnostics::Extremes& e) -> std::optional<DiagnosticRange> {
     if (!(e.least <= e.most)) return std::nullopt;  // no step yet
@@ -116,7 +117,7 @@ DiagnosticsSummary diagnostics_of(const StepDiagnostics& d, double dt) {
   return {range(d.of_condition_tangent), range(d.of_determinant_tangent), range(d.of_condition_inverse_mass)};
 }
 
-/// The two bodies in space, computed from the planar state.
+/// Returns the two bodies in space, computed from the planar state.
 std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   const auto& to_plane = scenario.problem->to_reference;
   const Frame planar = to_plane ? to_plane(scenario.request.parameters, frame.q, frame.p) : frame;
@@ -124,7 +125,7 @@ std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   return {first, second};
 }
 
-/// The start that was computed from an energy, in the digits of the run.
+/// Returns the start that was computed from an energy, in the digits of the run.
 StateSummary start_of(const Scenario& scenario) {
   if (digits_beyond_double(scenario.request.arithmetic) == 0) return {scenario.start_q, scenario.start_p};
   Frame frame;
@@ -139,7 +140,7 @@ double next_to(double other, const Scenario& scenario, std::size_t i, double x) 
   return i < coordinates.size() && coordinates[i] == "phi" ? x + turn * std::round((other - x) / turn) : x;
 }
 
-/// Copies of the parameters in which one number each is moved by one unit in the last place.
+/// Returns copies of the parameters, in each of which one number is moved by one unit in the last place.
 std::vector<Texts> moved_parameters(const Texts& parameters) {
   std::vector<Texts> all;
   for (const auto& [name, text] : parameters) {
@@ -150,7 +151,7 @@ std::vector<Texts> moved_parameters(const Texts& parameters) {
       try {
         part = shortest(std::nextafter(evaluate_number<double>(part), std::numeric_limits<double>::infinity()));
       } catch (const Error&) {
-        continue;  // a word
+        continue;  // it is a word
       }
       all.push_back(parameters);
       all.back()[name] = is_list ? "[" + joined(parts) + "]" : part;
@@ -161,8 +162,8 @@ std::vector<Texts> moved_parameters(const Texts& parameters) {
 }
 
 /// Bounds the error of the closed form, computed in double, for a run with more digits: one bound for each group of
-/// numbers with the same unit. It adds what one rounding of each parameter, of the start, of the time and of the result
-/// changes.
+/// numbers with the same unit. The bound adds the changes by one rounding of each parameter, of the start, of the time
+/// and of the result.
 std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact,
                                          const UnitGroups& groups) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -179,7 +180,7 @@ std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, con
     }
     for (std::size_t g = 0; g < sum.size(); ++g) sum[g] += most[g];
   };
-  // If the exact state is not known one rounding away, its uncertainty is unknown.
+  // If the exact state is unknown one rounding away, its uncertainty is unknown.
   const auto add_moved = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
     add(scenario.request.parameters, q, p, time, infinity);
   };
@@ -196,14 +197,14 @@ std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, con
     sum[groups.count() + groups.group(i)] += rounding * std::abs(exact.p[i]);
   }
   for (const Texts& parameters : moved_parameters(complete(scenario.problem->info, scenario.request.parameters))) {
-    // A moved exponent has no closed form; exponents are exact, so it adds nothing.
+    // There is no closed form for a moved exponent. But exponents are exact, so they contribute nothing.
     add(parameters, scenario.start_q, scenario.start_p, t, 0);
   }
   return sum;
 }
 
-/// The sizes of q and p along the exact motion up to a time. If all numbers of a kind are 0 at both ends, two times
-/// between are added, chosen so that an oscillation with zeros at both ends is not zero there.
+/// Returns the sizes of q and p along the exact motion until a time. If all numbers of a kind are 0 at both ends, two
+/// times in between are added, chosen so that an oscillation with zeros at both ends is not zero there.
 StateSizes sizes_of_exact(const Scenario& scenario, const Frame& end) {
   StateSizes sizes;
   sizes.include(scenario.start_q, scenario.start_p);
@@ -218,19 +219,19 @@ StateSizes sizes_of_exact(const Scenario& scenario, const Frame& end) {
   return sizes;
 }
 
-/// The exact state at the time reached and the distance of the run from it, for each group of numbers with one unit.
-/// The closed form is computed in double; for a run with more digits its uncertainty is added.
+/// Returns the exact state at the time reached, and the distance of the run from it for each group of numbers with one
+/// unit. The closed form is computed in double; for a run with more digits its uncertainty is added.
 std::optional<ExactSummary> exact_of(const Scenario& scenario, const Frame& frame) {
   auto exact = scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, frame.time);
   if (!exact) return std::nullopt;
-  Frame reached;  // in double
+  Frame reached;  // rounded to double
   reached.q = frame.q;
   reached.p = frame.p;
   for (std::size_t i = 0; i < frame.q.size(); ++i) exact->q[i] = next_to(frame.q[i], scenario, i, exact->q[i]);
   const UnitGroups groups = unit_groups(*scenario.problem, frame.q.size());
   const std::vector<GroupDistance> distances =
       group_distances(groups, sizes_of_exact(scenario, *exact), reached, *exact);
-  std::size_t furthest = 0;  // the group with the largest relative distance
+  std::size_t furthest = 0;  // group with the largest relative distance
   Named<double> differences;
   for (std::size_t g = 0; g < distances.size(); ++g) {
     differences.emplace_back(distances[g].name, distances[g].distance.value);
@@ -253,13 +254,12 @@ std::optional<ExactSummary> exact_of(const Scenario& scenario, const Frame& fram
 
 }  // namespace
 
-/// The iteration that was chosen automatically; empty if it was requested or is newton.
+/// Returns the iteration that was chosen automatically; empty if it was requested or is newton.
 static std::string chosen_iteration(const Request& request) {
   const MethodSpec taken = method_taken(request);
   return taken.options == request.method.options ? "" : taken.options.at("iteration");
 }
 
-/// See summary.hpp.
 std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
     return "a smaller dt does not help: H = E has only one root in this momentum, so a hard wall cannot reflect it; "
@@ -269,7 +269,8 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
     const std::string solved = hint_after_divergence(request, differentiated);
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
-    // Steps of varying length also fail in this way if their density is no longer positive; then nothing diverged.
+    // Steps of varying length also fail in this way if their density is no longer positive. Then no iteration failed to
+    // converge.
     const auto problem_entry = find_problem(request);
     const ProblemEntry& problem = *problem_entry;
     const auto monitor = request.method.options.find(monitor_option);
@@ -302,7 +303,7 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
   return text;
 }
 
-/// The error of a failed run, with a hint how to look at the results and how to continue.
+/// Returns the error of a failed run, with a hint how to look at the results and how to continue.
 RunError error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
   Frame frame;
   simulation.look(frame);
@@ -318,7 +319,7 @@ RunError error_of(const Scenario& scenario, const Simulation& simulation, const 
   const bool says_more =
       result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
   const bool has_message = says_more && !result.failure.empty();
-  const std::int64_t step = frame.step + 1;  // the step that failed
+  const std::int64_t step = frame.step + 1;
   return {std::string(name(result.outcome)),
           step,
           frame.time,

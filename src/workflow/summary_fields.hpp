@@ -1,4 +1,4 @@
-// The JSON keys that summaries of runs, sweeps and reversals have in common.
+// JSON keys that summaries of runs, sweeps and reversals share.
 #pragma once
 
 #include "hamflow/workflow/summary.hpp"

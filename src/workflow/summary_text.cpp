@@ -1,4 +1,4 @@
-// The summary of a run for people: a line for each entry.
+// Writes the summary of a run as text, a line for each entry.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ std::string list_text(const std::vector<double>& numbers, const std::vector<std:
 
 namespace {
 
-/// A percentage with two digits: "0.25", "6.3", "100".
+/// Writes a percentage with two digits: "0.25", "6.3", "100".
 std::string percent_of(double share) {
   const double percent = 100 * share;
   return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
@@ -68,7 +68,7 @@ std::string certificate_text(const RunCertificate& c) {
   return text;
 }
 
-/// A quantity at the start and at the end, and its largest error over every step.
+/// Writes a quantity at the start and at the end, and its largest error over every step.
 std::string watched_text(const std::string& initial, const std::string& final,
                          const std::optional<LongNumber>& max_error) {
   const std::string ends = initial + " -> " + final + ", ";
@@ -162,7 +162,7 @@ std::string summary_text(const Summary& s) {
   }
   if (s.certificate) {
     row("certificate", certificate_text(*s.certificate));
-  } else if (energy.scale) {  // a map has neither
+  } else if (energy.scale) {  // a map has no energy scale and no certificate
     row("certificate", "not requested");
   }
   row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s.wall_seconds, s.steps_per_second));

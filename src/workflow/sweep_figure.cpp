@@ -23,25 +23,25 @@
 namespace hamflow {
 
 namespace {
-constexpr std::size_t few = 8;  // a list of at most so many values is drawn as lines
+constexpr std::size_t few = 8;  // a list with at most this many values is drawn as lines
 constexpr const char* usual_colour = "energy/max_error";
 
 bool draws_section(const Sweep& sweep, const std::string& colour) { return colour.empty() && sweep.common().section; }
 
 bool is_few(const Vary& vary) { return !vary.is_number() || (vary.is_list && vary.texts.size() <= few); }
 
-/// The keys over which a column is drawn: all keys except those given by formulas of others.
+/// Keys over which a column is drawn: all keys except those given by formulas of others.
 struct FigureKeys {
   std::vector<std::size_t> free;
-  std::size_t over = 0;  // the key of the horizontal axis
+  std::size_t over = 0;  // key of the horizontal axis
   bool map = false;      // a colour map with the key `above` on the vertical axis
   std::size_t above = 0;
   bool has_lines = false;  // one line for each value of the key `lines`
   std::size_t lines = 0;
 };
 
-/// Chooses how two keys are drawn. A key of words gets one line for each value, else a short list of numbers does. If
-/// there is neither, a colour map is drawn.
+/// Chooses how two keys are drawn. A key of words gets one line for each value; otherwise a short list of numbers does.
+/// If there is neither, a colour map is drawn.
 FigureKeys figure_keys(const Varied& varied) {
   FigureKeys keys{.free = varied.free_keys()};
   if (keys.free.empty()) return keys;
@@ -84,7 +84,7 @@ std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
   return all;
 }
 
-/// The values of a key of words, as labels of an axis or a legend.
+/// Returns the values of a key of words, as labels of an axis or a legend.
 std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
   std::vector<std::string> words;
   for (const std::string& text : vary.texts) words.push_back(without_quotes(text));
@@ -93,12 +93,12 @@ std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
   return words;
 }
 
-/// Labels of an axis. Two labels fit horizontally and are shortened; more are printed vertically.
+/// Returns the labels of an axis. Two labels fit horizontally and are shortened; more are printed vertically.
 std::vector<std::string> axis_words(const Vary& vary) {
   return vary.texts.size() > 2 ? words_of(vary) : words_of(vary, 18);
 }
 
-/// The label of a list entry. Entries are counted from 0 in scenarios and from 1 in figures.
+/// Returns the label of a list entry. Entries are counted from 0 in scenarios and from 1 in figures.
 std::string entry_label(const std::string& key) {
   const std::size_t open = key.find('[');
   const std::string number = open == std::string::npos ? "" : key.substr(open + 1, key.size() - open - 2);
@@ -107,14 +107,15 @@ std::string entry_label(const std::string& key) {
   return figures::symbol(is_entry ? key.substr(0, open) + "_" + std::to_string(std::stoi(number) + 1) : key);
 }
 
-/// The velocity of a coordinate: v_2 of q2, v_x of x.
+/// Returns the velocity of a coordinate: v_2 for q2, v_x for x.
 std::string velocity_label(const std::string& coordinate) {
   const std::string name = figures::without_brackets(coordinate);
   const bool is_q = name.size() > 1 && name[0] == 'q' && name.find_first_not_of("0123456789", 1) == std::string::npos;
   return figures::symbol("v_" + (is_q ? name.substr(1) : name));
 }
 
-/// The label of a varied key: the name of the coordinate for an entry of the start, else the last part of the key.
+/// Returns the label of a varied key: the name of the coordinate for an entry of the start, otherwise the last part of
+/// the key.
 std::string key_label(const Sweep& sweep, const std::string& path) {
   const StateNames& names = sweep.names().state();
   for (const auto& [key, list] : {std::pair{"problem.initial.q", &names.q}, {"problem.initial.p", &names.p}}) {
@@ -130,8 +131,8 @@ std::string key_label(const Sweep& sweep, const std::string& path) {
   return last == "dt" ? "d{/:Italic t}" : entry_label(last);
 }
 
-/// The label of an invariant: NAME/final becomes "angular momentum at the end"; NAME/final2 is its second number,
-/// NAME_2.
+/// Returns the label of an invariant: NAME/final becomes "angular momentum at the end"; NAME/final2 is its second
+/// number, NAME_2.
 std::string invariant_label(const std::string& name) {
   const std::size_t slash = name.rfind('/');
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
@@ -144,7 +145,7 @@ std::string invariant_label(const std::string& name) {
   return what == "max_error" ? "largest error of " + label : figures::escaped(name);
 }
 
-/// The label of an observable: kin_1_final becomes "kin_1 at the end". Empty for other columns.
+/// Returns the label of an observable: kin_1_final becomes "kin_1 at the end". Empty for other columns.
 std::string observable_label(const Sweep& sweep, const std::string& name) {
   for (const NamedExpression& observable : sweep.common().observables) {
     for (const auto& [end, words] :
@@ -155,7 +156,8 @@ std::string observable_label(const Sweep& sweep, const std::string& name) {
   return {};
 }
 
-/// The coordinate of a column: "x" for final/q1, or for final/q of a single coordinate. Empty for other columns.
+/// Returns the coordinate of a column: "x" for final/q1, or for final/q of a single coordinate. Empty for other
+/// columns.
 std::string name_at_the_end(const Sweep& sweep, const std::string& column) {
   const StateNames& names = sweep.names().state();
   for (const auto& [table, list] : {std::pair{"final/q", &names.q}, {"final/p", &names.p}}) {
@@ -199,11 +201,11 @@ std::string title_of(const Sweep& sweep) {
 }
 
 bool is_done(const MemberRow& row) { return row.status == Outcome::done; }
-/// Whether the section points of a member are drawn. Those of an interrupted member are valid; a failed member may have
-/// points that are far away from all others.
+/// Returns whether the section points of a member are drawn. Those of an interrupted member are valid; a failed member
+/// may have points that are far away from all others.
 bool has_a_section(const MemberRow& row) { return !row.no_start && !is_failure(row.status); }
 
-/// The note about members that are not drawn.
+/// Returns the note about members that are not drawn.
 /// @param drawn whether a member is drawn   @param without_value number of drawn members whose value is inf or nan
 std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&), std::size_t without_value = 0) {
   std::map<std::string, std::size_t> failed;
@@ -221,7 +223,8 @@ std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&
       fmt::format("{}: {} of {} members ({})", map ? "white" : "not drawn", count, sweep.members(), joined(parts)));
 }
 
-/// The section points of all members that did not fail. Every member has its own colour while there are enough colours.
+/// Returns the section points of all members that did not fail. Every member has its own colour while there are enough
+/// colours.
 Figure section_figure_of(const Sweep& sweep) {
   const Scenario& common = sweep.common();
   const std::size_t n = common.start_q.size();
@@ -249,7 +252,7 @@ Figure section_figure_of(const Sweep& sweep) {
   return figure;
 }
 
-/// The column of a coordinate or momentum by its name, "final/q1" of "final/x"; empty for other names.
+/// Returns the column of a coordinate or momentum by its name, "final/q1" for "final/x"; empty for other names.
 std::string column_of_state(const Sweep& sweep, const std::vector<DrawnColumn>& all, const std::string& name) {
   const std::string table = "final/";
   if (!name.starts_with(table)) return {};
@@ -264,8 +267,8 @@ std::string column_of_state(const Sweep& sweep, const std::vector<DrawnColumn>& 
   return {};
 }
 
-/// The column for a name: the column itself, the column of a coordinate or momentum, or the only column that ends with
-/// a slash and the name. Otherwise the name is returned.
+/// Returns the column for a name: the column itself, the column of a coordinate or momentum, or the only column that
+/// ends with a slash and the name. Otherwise the name is returned.
 std::string whole_name(const Sweep& sweep, const std::vector<DrawnColumn>& all, const std::string& name) {
   if (const std::string column = column_of_state(sweep, all, name); !column.empty()) return column;
   std::string found = name;
@@ -364,7 +367,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
       if (names.size() > 1) figure.line.push_back(value_label(sweep, name));
     }
   }
-  std::erase(done, 0U);  // nothing is drawn for these values
+  std::erase(done, 0U);  // values without finished members are not drawn
   if (!done.empty()) {
     const auto [fewest, most] = std::minmax_element(done.begin(), done.end());
     figure.notes.push_back("bars: standard error of the mean over " +

@@ -1,4 +1,4 @@
-// The figure of a sweep: a column of its table as a function of the varied keys.
+// Draws a sweep: a column of its table as a function of the varied keys.
 #pragma once
 
 #include <filesystem>

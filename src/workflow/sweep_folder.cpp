@@ -16,7 +16,7 @@ namespace hamflow {
 namespace {
 
 namespace fs = std::filesystem;
-/// The differences from the sweep in the folder that forbid resuming.
+/// Returns the differences from the sweep in the folder that forbid resuming.
 std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
   began.version = before.version;
@@ -158,7 +158,7 @@ void SweepFolder::save_if_due() {
     const SweepTables tables = tables_of(sweep_);
     hold.unlock();
     write_table(tables);
-  } catch (const std::exception&) {  // e.g. a full disk or too little memory; the sweep itself continues
+  } catch (const std::exception&) {  // for example a full disk or too little memory; the sweep itself continues
     failed_ = true;
   }
   last_ = Clock::now();

@@ -1,4 +1,4 @@
-// The folder of a sweep: the checkpoint members.bin, and the table, which is rewritten while the sweep runs.
+// Folder of a sweep: the checkpoint members.bin, and the table, which is rewritten while the sweep runs.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace hamflow {
 
-/// The header that identifies a sweep.
+/// Returns the header that identifies a sweep.
 SweepHead head_of(const Sweep& sweep, const SweepRequest& request);
 
 class SweepFolder {
@@ -28,13 +28,13 @@ class SweepFolder {
   const std::vector<std::string>& notes() const { return notes_; }
   const std::filesystem::path& path() const { return folder_.path(); }
 
-  /// Wall time of all parts of the sweep together.
+  /// Returns the wall time of all parts of the sweep together.
   double seconds() const;
   /// Starts the clock of this part.
   void begin() { begin_ = last_ = Clock::now(); }
   /// Saves a finished member.   @throws FileError
   void keep(std::size_t member);
-  /// Rewrites the table at most four times a second, and so seldom that writing takes at most a twentieth of the time.
+  /// Rewrites the table at most four times a second, and so rarely that writing takes at most a twentieth of the time.
   /// Errors are ignored here, because save() tries again.
   void save_if_due();
   /// Writes the final table and the summary.   @throws FileError

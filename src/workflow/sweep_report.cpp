@@ -28,7 +28,7 @@ std::size_t count_without_start(const Sweep& sweep) {
       std::count_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return row.no_start; }));
 }
 
-/// The first members that failed. Members without a start come last, because there may be many of them.
+/// Returns the first members that failed. Members without a start come last, because there may be many of them.
 std::vector<MemberFailure> failures_of(const Sweep& sweep) {
   std::vector<MemberFailure> all;
   for (const bool no_start : {false, true}) {
@@ -41,8 +41,8 @@ std::vector<MemberFailure> failures_of(const Sweep& sweep) {
   return all;
 }
 
-/// The warnings for all members together. Warnings about a long dt or a fall into the centre are only given by a run of
-/// the single member.
+/// Returns the warnings for all members together. Only a run of a single member warns about a long dt or a fall into
+/// the centre.
 std::vector<Warning> sweep_warnings(const Sweep& sweep) {
   const auto is_nonsense = [](const MemberRow& row) { return row.nonsense; };
   const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_nonsense);
@@ -73,7 +73,7 @@ Named<VariedKey> varied_of(const Sweep& sweep) {
   return varied;
 }
 
-/// The value of a key that is the same for all members; nullopt if the key is varied.
+/// Returns the value of a key that is the same for all members; nullopt if the key is varied.
 std::optional<std::string> common_to_all(const Sweep& sweep, const std::string& path, const std::string& value) {
   const std::vector<Vary>& keys = sweep.varied().keys();
   const bool is_varied = std::any_of(keys.begin(), keys.end(), [&](const Vary& key) { return key.path == path; });
@@ -86,8 +86,8 @@ Named<Value> varied_of_member(const Sweep& sweep, std::size_t member) {
   for (std::size_t key = 0; key < varied.size(); ++key) {
     const Vary& vary = varied.keys()[key];
     const std::string given = without_quotes(varied.text(member, key));
-    // A number such as 1/3 is not a double. With more digits than double the row keeps its text, from which the member
-    // can be run again.
+    // A number such as 1/3 is not a double. With more digits than double the row contains its text, from which the
+    // member can be run again.
     const bool is_double =
         vary.is_number() && (!sweep.beyond_double() || given == shortest(varied.number(member, key)));
     all.emplace_back(vary.path, is_double ? Value(varied.number(member, key)) : Value(given));
@@ -98,7 +98,7 @@ Named<Value> varied_of_member(const Sweep& sweep, std::size_t member) {
 Named<double> columns_of_member(const Sweep& sweep, std::size_t member) {
   Named<double> all;
   if (sweep.rows()[member].observables.empty() && !sweep.names().of(member).observables.empty())
-    return all;  // not done
+    return all;  // the member is not finished
   for (const UnitedName& name : sweep.names().observables()) {
     const double* const x = value_of(sweep, name, member, &MemberRow::observables);
     all.emplace_back(name.name, x == nullptr ? std::numeric_limits<double>::quiet_NaN() : *x);
@@ -106,7 +106,7 @@ Named<double> columns_of_member(const Sweep& sweep, std::size_t member) {
   return all;
 }
 
-/// The observables as in the summary of a single run.
+/// Returns the observables as in the summary of a single run.
 std::vector<ObservableSummary> observables_of_member(const Sweep& sweep, const Named<double>& columns) {
   std::vector<ObservableSummary> all;
   if (columns.empty()) return all;
@@ -160,7 +160,7 @@ SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted,
   s.unfinished = sweep.members_left();
   s.failed = s.members - s.done - s.unfinished;
   s.no_start = count_without_start(sweep);
-  s.status = interrupted && s.unfinished > 0 ? "interrupted" : s.done == 0 ? "failed" : "done";
+  s.status = interrupted && s.unfinished > 0 ? "interrupted" : s.done == 0 && s.members > 0 ? "failed" : "done";
   const Request& common = sweep.common().request;
   s.problem = common_to_all(sweep, "problem.name", common.problem);
   s.arithmetic = common_to_all(sweep, run_path(run_keys().arithmetic), common.arithmetic);

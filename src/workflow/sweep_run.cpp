@@ -34,7 +34,7 @@ LaneSet lanes_named(const std::string& name) {
   throw Error("found \"" + name + "\"; allowed on this machine: " + joined(allowed) + suggestion(name, allowed));
 }
 
-/// Whether a key only decides what a single run writes and when.
+/// Returns whether a key only decides what a single run writes, and when.
 bool belongs_to_single_runs(const std::string& path) {
   const RunKeys& keys = run_keys();
   const std::vector<std::string> all{output_table, run_path(keys.checkpoint_every), run_path(keys.record_every),
@@ -43,7 +43,7 @@ bool belongs_to_single_runs(const std::string& path) {
                      [&](const std::string& key) { return is_part_of_other(key, path) && path.size() >= key.size(); });
 }
 
-/// Whether a key decides which columns, or which section, the table of a sweep has.
+/// Returns whether a key decides which columns, or which section, the table of a sweep has.
 bool decides_columns(const std::string& path) {
   const RunKeys& keys = run_keys();
   for (const OptionInfo& key : {keys.lyapunov, keys.eigenvalues, keys.section}) {
@@ -52,7 +52,7 @@ bool decides_columns(const std::string& path) {
   return false;
 }
 
-/// For a gas: adds one warning with the number of finished members in which particles may have passed through each
+/// For a gas, adds one warning with the number of finished members in which particles may have passed through each
 /// other. Its details are those of the first such member.
 void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Warning>& warnings) {
   if (!sweep.common().problem->particles) return;
@@ -99,7 +99,7 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
       complain(option, error.what());
     }
   };
-  // Ranges are counted before their values are made, which take memory.
+  // The values of a range take memory, so they are counted before they are made.
   double members = 1;
   for (const std::string& vary : request.varied) members *= static_cast<double>(count_of_range(vary));
   if (!request.zip && members > static_cast<double>(most_members)) {
@@ -256,7 +256,7 @@ SweepReport ScenarioSweep::report() {
   report.text = sweep_text(summary);
   report.warnings = warning_lines(summary.warnings);
   for (const MemberFailure& failure : summary.failures) {
-    // Members without a start are not listed if other members have one, since they are often many.
+    // Members without a start are often many, so they are listed only if no member has a start.
     if (failure.kind == "no_start" && summary.no_start != summary.members) continue;
     report.failures.push_back(fmt::format("member {}, step {}: {}", failure.member, failure.step, failure.message));
     if (report.hint.empty() && failure.kind == name(Outcome::not_converged)) {

@@ -25,7 +25,7 @@ std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
   return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);
 }
 
-/// The period of a Cartesian coordinate on the orbit, or of the radius if that is longer; 0 if it is not known.
+/// Returns the period of a Cartesian coordinate on the orbit, or of the radius if that is longer; 0 if unknown.
 double period_of_orbit(const OrbitSummary& orbit) {
   if (orbit.falls_into_centre) return 0;
   const double radial = orbit.radial_period;
@@ -34,9 +34,9 @@ double period_of_orbit(const OrbitSummary& orbit) {
   return std::isfinite(round) && std::isfinite(radial) ? std::max(radial, round) : 0;
 }
 
-/// The mean time between bounces off the wall that was hit most often. The fastest oscillation has at most this period.
-/// It also counts several bounces within one step, which the states at its two ends do not show.
-/// @param length the time of all steps, or more
+/// Returns the mean time between bounces off the wall that was hit most often. The fastest oscillation has at most this
+/// period. It also counts several bounces within one step, which the states at the two ends of the step do not show.
+/// @param length time of all steps, or more
 std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, double length) {
   std::optional<FastestTurns> fastest;
   for (const WallCount& wall : walls) {
@@ -47,8 +47,8 @@ std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, do
   return fastest;
 }
 
-/// Whether H does not depend on the coordinates, judged from states between the start and the end. Then every step is
-/// exact, whatever its length, unless a wall rejects steps or is soft.
+/// Returns whether H does not depend on the coordinates, judged from states between the start and the end. If so, every
+/// step is exact, whatever its size, unless a wall rejects steps or is soft.
 bool flies_freely(const Scenario& scenario, const Frame& end) {
   const auto& walls = scenario.request.walls;
   if (walls && (walls->rule == WallRule::reject || walls->rule == WallRule::soft)) return false;
@@ -66,8 +66,8 @@ bool flies_freely(const Scenario& scenario, const Frame& end) {
 }
 
 void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
-  // With steps of varying length, dt is only the first one. It is compared with the known period of the orbit, and so
-  // is the mean step, because a density that is integrated with too long steps no longer follows its monitor.
+  // With steps of varying length, dt is only the first step. It is compared with the known period of the orbit. The
+  // mean step is compared, too, because a density that is integrated with too long steps no longer follows its monitor.
   const bool varies = describe(scenario.request.method).varies_steps;
   const auto seen = varies ? std::nullopt : motion.turns->fastest();
   const double first = varies ? std::abs(scenario.dt) : motion.turns->longest_step();
@@ -101,7 +101,7 @@ void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::v
 /// The springs of tao2 and tao4 rotate the copies by 2 omega dt in a step, and the error grows as omega dt^order.
 constexpr double most_turn_of_springs = 0.25;
 
-/// omega dt, for a method that carries a second copy of the state.
+/// Returns omega dt, for a method that carries a second copy of the state.
 double turn_of_springs(const Scenario& scenario) {
   const MethodSpec& method = scenario.request.method;
   const std::vector<OptionInfo>& options = find_method(method.name).family->options;
@@ -121,12 +121,13 @@ void add_fast_springs(const Scenario& scenario, std::vector<Warning>& all) {
                                           turn, scenario.dt * most_turn_of_springs / turn)});
 }
 
-/// Warns if the two copies of tao2 and tao4 have separated. The method conserves the energy of both copies together, so
-/// a large energy error of (q, p) suggests it. The run is repeated in double until the copies have separated.
-/// @param size of the energy
+/// Warns if the two copies of the state in tao2 and tao4 have separated. The method conserves the energy of both copies
+/// together, so a large energy error of (q, p) indicates that they have. The run is repeated in double until the copies
+/// have separated.
+/// @param size size of the energy
 void add_parted_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps,
                        std::vector<Warning>& all) {
-  constexpr double least_error = 0x1p-8;  // relative energy error; copies that are together have less
+  constexpr double least_error = 0x1p-8;  // relative energy error; it is smaller as long as the copies stay together
   constexpr double most = 0x1p-5;         // distance of the copies relative to the size of the state
   constexpr std::int64_t most_steps = std::int64_t{1} << 22U;
   constexpr std::int64_t looks = 1024;
@@ -138,7 +139,7 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
   const std::size_t n = scenario.start_q.size();
   const auto map = problem.step_map(request, n);
   if (!map) return;
-  State<double> z;  // (q, x, p, y)
+  State<double> z;  // the state (q, x, p, y) with its copy (x, y)
   for (const auto* part : {&scenario.start_q, &scenario.start_q, &scenario.start_p, &scenario.start_p}) {
     z.insert(z.end(), part->begin(), part->end());
   }
@@ -177,8 +178,8 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
   }
 }
 
-/// Warns if bounces, section points or events are searched within steps of half a period or more. A method without
-/// sub-steps searches on its own partial steps, which are not reliable then.
+/// Warns if bounces, section points or events are located within steps of half a period or more. A method without
+/// sub-steps locates them with its own partial steps, which are then not reliable.
 void add_long_search(const Scenario& scenario, const Simulation& simulation, std::vector<Warning>& all) {
   const bool seeks = has_hard_walls(scenario.request) || scenario.section || !scenario.events.empty();
   const auto& walls = scenario.request.walls;
@@ -221,12 +222,12 @@ double fastest(const ParticleFacts& particles, const std::vector<double>& p) {
   return most;
 }
 
-/// The two nearest particles; in a periodic box periodic images are included.
+/// The two nearest particles, including periodic images in a periodic box.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   std::size_t one = 0, other = 0;
 };
-/// @return nullopt for more than 3000 particles, which would take too long
+/// Returns nullopt for more than 3000 particles, because it would take too long.
 std::optional<Nearest> nearest(const ProblemEntry& problem, const ParticleFacts& particles,
                                const std::vector<double>& q) {
   const std::size_t space = particles.space;
@@ -251,8 +252,8 @@ std::optional<Nearest> nearest(const ProblemEntry& problem, const ParticleFacts&
   return found;
 }
 
-/// Whether these two repel each other so strongly that they cannot pass: on the way to each other the energy changes by
-/// more than their kinetic energy. Through a smooth core they may pass.
+/// Returns whether two particles repel each other so strongly that they cannot pass: on the way to each other the
+/// energy changes by more than their kinetic energy. Through a smooth core they may pass.
 bool has_core(const Request& request, const ProblemEntry& problem, const ParticleFacts& particles,
               const std::vector<double>& q, const std::vector<double>& p, const Nearest& two) {
   const std::size_t space = particles.space;
@@ -299,7 +300,7 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
 
 namespace {
 
-/// A text about two particles of a gas that start so close together that no dt helps; empty if there are none.
+/// Returns a text about two particles of a gas that start so close together that no dt helps; empty if there are none.
 std::string overlap_at_start(const Scenario& scenario) {
   const ProblemEntry& problem = *scenario.problem;
   if (!problem.particles) return {};
@@ -322,7 +323,7 @@ void add_passing(const Scenario& scenario, const Frame& end, std::vector<Warning
   if (!told.empty()) all.push_back({"long_step", told});
 }
 
-/// The product q.p of a state in Cartesian coordinates. Its sign is the sign of the radial velocity.
+/// Returns the product q.p of a state in Cartesian coordinates, whose sign is the sign of the radial velocity.
 double radial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
               const std::vector<double>& p) {
   Frame at;
@@ -334,11 +335,11 @@ double radial(const ProblemEntry& problem, const Texts& parameters, const std::v
   return sum;
 }
 
-/// Whether an orbit that falls into the centre has reached it by time t. From apocentre to centre it takes half a
-/// radial period; a closed form may continue beyond the centre, outwards.
+/// Returns whether an orbit that falls into the centre has reached it by time t. From apocentre to centre it takes half
+/// a radial period; a closed form may continue beyond the centre, outwards.
 bool has_fallen(const Scenario& scenario, double period, double t) {
   const ProblemEntry& problem = *scenario.problem;
-  if (!problem.exact) return std::abs(t) >= period;  // an orbit that moves outwards first needs up to a period
+  if (!problem.exact) return std::abs(t) >= period;  // an orbit that first moves outwards needs up to a period
   const auto exact = [&](double time) {
     return problem.exact(scenario.request.parameters, scenario.start_q, scenario.start_p, time);
   };
@@ -346,7 +347,7 @@ bool has_fallen(const Scenario& scenario, double period, double t) {
   if (!end) return exact(0).has_value();  // unknown if there is no closed form at the start either
   const double sense = t < 0 ? -1 : 1;
   const bool goes_out = sense * radial(problem, scenario.request.parameters, scenario.start_q, scenario.start_p) > 0;
-  const double least = goes_out ? period / 2 : 0;  // not reached earlier
+  const double least = goes_out ? period / 2 : 0;  // the centre is not reached earlier
   const double most = goes_out ? period : period / 2;
   return std::abs(t) >= most ||
          (std::abs(t) > least && sense * radial(problem, scenario.request.parameters, end->q, end->p) > 0);
@@ -362,9 +363,10 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const
   const double exchanged = typically_exchanged.value_or(energy.exchanged);
   if (exchanged > 0 && std::isfinite(exchanged)) return energy.max_error > std::max(exchanged, 0x1p-40 * scale);
   if (!(energy.max_error > scale)) return false;
-  // T and V of a pendulum that starts horizontally are only rounding. There the virial at the start gives the scale,
-  // and an error that is small compared with the kinetic part of the virial at the end is acceptable. The other part is
-  // useless for a wrong motion: for an angle of a million turns it is a million times the energy.
+  // If a pendulum starts horizontally, T and V at the start are only rounding errors. Then the virial at the start
+  // gives the scale, and an error that is small compared with the kinetic part of the virial at the end is acceptable.
+  // The other part of that virial is useless for a wrong motion: for an angle of a million turns it is a million times
+  // the energy.
   const auto of = [&](const std::vector<double>& q, const std::vector<double>& p) {
     return virial(*scenario.problem, scenario.request.parameters, q, p);
   };
@@ -393,7 +395,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summar
 
 std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion) {
   std::vector<Warning> all;
-  if (scenario.map) return all;  // the warnings compare steps with the flow of H, which a map does not have
+  if (scenario.map) return all;  // the warnings compare steps with the flow of H, and a map has no flow
   const Excursion& energy = motion.energy;
   const Frame& end = motion.end;
   const double scale = energy.scale_at_start;
@@ -422,7 +424,8 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
       has_fallen(scenario, motion.orbit->radial_period, end.time)) {
-    // The apsidal angle is 0 only on a line. For a fall with angular momentum a little more of it does not help.
+    // The apsidal angle is 0 only on a line. If the orbit falls although it has angular momentum, a little more of it
+    // does not help.
     const bool on_line = motion.orbit->apsidal_angle.value == 0;
     all.push_back({"falls_into_centre",
                    std::string("the orbit reaches the centre, where H is infinite, before the run ends; later results "

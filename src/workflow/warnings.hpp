@@ -12,37 +12,37 @@
 
 namespace hamflow {
 
-/// At most one warning of each kind:
+/// Returns at most one warning of each kind:
 /// - energy_error: the largest energy error is above the scale of the energy;
 /// - long_step: dt is above a tenth of the shortest period seen, or of the known period of the orbit if none was seen;
 /// - parted_copies: the two copies of the state that tao2 and tao4 carry have separated;
 /// - falls_into_centre: the orbit reaches a singular centre before the run ends;
 /// - no_number: an invariant is not finite at the start or at the end.
-/// @param summary complete except for its warnings   @param turns null: long steps were not looked for
+/// @param summary complete except for its warnings   @param turns null: nothing watched for steps that are too long
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
                                  const TurnWatch* turns, std::optional<double> exchanged = {});
 
-/// A motion to be judged, whose end is not the present state of the simulation.
+/// A motion to be judged, whose end may differ from the current state of the simulation.
 struct WatchedMotion {
   Excursion energy;
   Frame end;
-  const OrbitSummary* orbit = nullptr;  // null: not known
-  const TurnWatch* turns = nullptr;     // null: long steps were not looked for
+  const OrbitSummary* orbit = nullptr;  // null: unknown
+  const TurnWatch* turns = nullptr;     // null: nothing watched for steps that are too long
   std::vector<WallCount> walls{};       // number of bounces off each wall
-  std::int64_t steps = 0;               // number of steps
-  double mean_step = 0;                 // mean of steps of varying length; 0: not known
-  std::optional<double> exchanged{};    // EnergyExchange::typical()
+  std::int64_t steps = 0;
+  double mean_step = 0;               // mean of steps of varying length; 0: unknown
+  std::optional<double> exchanged{};  // EnergyExchange::typical()
 };
-/// The same warnings without no_number.
+/// Returns the same warnings without no_number.
 std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion);
-/// A warning if particles of a gas may pass through each other within a step; else empty.
-/// @param problem the problem of the request
+/// Returns a warning if particles of a gas may pass through each other within a step; else empty.
+/// @param problem problem of the request
 std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
                               const Frame& end);
 
-/// Whether the energy error is so large that the result is meaningless: larger than the energy that the motion
+/// Returns whether the energy error is so large that the result is meaningless: larger than the energy that the motion
 /// exchanges, which does not depend on a constant in H. If the exchange is zero or unknown, the error is compared with
-/// the scale at the start, unless T and V vanish there by chance.   @param end the last state
+/// the scale at the start, unless T and V vanish there by chance.   @param end last state
 /// @param exchanged EnergyExchange::typical(), used if it is known; it is less than Excursion::exchanged
 bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
                         std::optional<double> exchanged = {});

@@ -32,7 +32,8 @@ std::vector<std::string> names_of_figures() {
 
 }  // namespace
 
-// The file from which work is resumed is removed last, so that a folder is still recognised if the removal is killed.
+// The file from which work is resumed is removed last, so that a folder is still recognised if a kill interrupts the
+// removal.
 const FolderKind& run_folder() {
   static const FolderKind kind{.name = "run",
                                .signs = {"run.h5"},
@@ -73,7 +74,7 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, none));
 }
 
-/// The files of this kind that exist in the folder, including half-written ones left by a kill.
+/// Returns the files of this kind that exist in the folder, including half-written ones left by a kill.
 Names found_in(const fs::path& folder, const FolderKind& kind) {
   Names names;
   std::error_code none;
@@ -91,7 +92,7 @@ Names found_in(const fs::path& folder, const FolderKind& kind) {
   return names;
 }
 
-/// The names of the finished files, e.g. "run.h5, figures/orbit.svg"; empty if there are none.
+/// Returns the names of the finished files, such as "run.h5, figures/orbit.svg"; empty if there are none.
 std::string left_in(const fs::path& folder, const FolderKind& kind) {
   Names found = found_in(folder, kind);
   std::erase_if(found, [](const fs::path& name) { return name.extension() == ".new"; });
@@ -108,7 +109,7 @@ void remove_file(const fs::path& file) {
   if (error) throw FileError("cannot remove " + file.string() + ": " + error.message());
 }
 
-/// The name of the other kind to which the folder belongs; empty: none.
+/// Returns the name of the other kind to which the folder belongs; empty: none.
 std::string other_kind_in(const fs::path& folder, const FolderKind& kind) {
   for (const FolderKind* other : {&run_folder(), &sweep_folder(), &comparison_folder(), &reversal_folder()}) {
     const bool is_other = std::any_of(other->signs.begin(), other->signs.end(),
@@ -118,7 +119,7 @@ std::string other_kind_in(const fs::path& folder, const FolderKind& kind) {
   return {};
 }
 
-/// Whether a file, or the target of a link, is one of the names in the folder.
+/// Returns whether a file, or the target of a link, is one of the names in the folder.
 bool is_among(const fs::path& file, const fs::path& folder, const Names& names) {
   std::error_code none;
   const fs::path there = fs::weakly_canonical(fs::absolute(folder), none);
@@ -199,7 +200,7 @@ WorkFolder::WorkFolder(WorkFolder&& other) noexcept
 
 void WorkFolder::lock() {
   descriptor_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  // Some network folders cannot be locked. There other processes are not kept out.
+  // Some network folders cannot be locked. Then other processes are not kept out.
   if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     unlock();
     throw FileError("another process is writing into the folder " + path_.string());

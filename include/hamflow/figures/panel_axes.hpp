@@ -1,4 +1,4 @@
-// Panels whose axes fit their data, and marks that tell many series apart.
+// Panels whose axes fit their data, and marks that distinguish many series.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,19 @@
 
 namespace hamflow::figures {
 
-constexpr double padding = 0.06;  // between data and frame, a fraction of the range
+constexpr double padding = 0.06;  // margin between data and frame, as a fraction of the range
 
-/// A panel over time, or over another quantity that grows; the y-axis is left to the caller.
+/// Makes a panel over time or another quantity that grows. The caller sets the y-axis.
 Panel panel_over(const Extent& times, const std::string& label);
-/// Both axes with one scale: the box takes the shape of the data, within limits.
+/// Sets both axes with the same scale. The box gets the shape of the data, within limits.
 void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y);
 
-/// Colours that differ in hue and in grey, the first that of a figure of one run; they repeat after eight.
+/// Returns colours that differ in hue and in brightness. The first is the colour of a figure of one run. They repeat
+/// after eight.
 std::string colour_of(std::size_t place);
-/// The colour of a series, its own or that of its ink.
+/// Returns the colour of a series: its own, or that of its ink.
 std::string colour_of(const Series& series);
-/// For the n-th of many series: its colour, and dashes where colours repeat.
+/// Returns the mark of the n-th of many series: its colour, and a dash pattern if colours repeat.
 Mark mark_of(std::size_t place);
 
 }  // namespace hamflow::figures

@@ -1,4 +1,4 @@
-// Stopping while a figure is drawn: a program that catches Ctrl-C is asked while it waits for gnuplot.
+// Lets a program stop drawing, for example after Ctrl-C, while it waits for gnuplot.
 #pragma once
 
 #include <functional>
@@ -7,12 +7,13 @@
 
 namespace hamflow::figures {
 
-/// gnuplot was ended because the caller's `go_on` returned false.
+/// Thrown if gnuplot was ended because the caller's `go_on` returned false.
 struct DrawingStopped : FileError {
   using FileError::FileError;
 };
 
-/// While it lives, this thread asks `go_on` whenever it waits for gnuplot; an answer of false ends gnuplot.
+/// While an object exists, this thread calls `go_on` whenever it waits for gnuplot; if it returns false, gnuplot is
+/// ended.
 class WhileDrawing {
  public:
   explicit WhileDrawing(std::function<bool()> go_on);

@@ -1,6 +1,6 @@
-// Converts states to other coordinates (charts) of the same problem, as the problems declare them: a central force in
-// the plane (cartesian, polar), a double pendulum (absolute, relative). Every change is canonical: momenta change with
-// positions, and H keeps its value.   [Gross1999, ch. 2 and 3]
+// Converts states to other coordinates (charts) of the same problem: a central force in the plane (cartesian, polar), a
+// double pendulum (absolute, relative). Problems declare their charts. Every conversion is canonical: momenta change
+// with positions, and H keeps its value.   [Gross1999, ch. 2 and 3]
 #pragma once
 
 #include <memory>
@@ -18,38 +18,40 @@ struct CanonicalState {
   std::vector<double> p;
 };
 
-/// All problems with several charts, and the names of the charts: "central-force has cartesian and polar; ...".
+/// Lists all problems with several charts, and the names of the charts: "central-force has cartesian and polar; ...".
 std::string what_charts_there_are();
 /// @throws Error if no problem has such coordinates; the message names the allowed ones
 void check_coordinates(const std::string& name);
-/// The same problem in the coordinates `to`. @throws Error if it does not have them; the message names problems that do
+/// Returns the same problem in the coordinates `to`. @throws Error if it does not have them; the message names problems
+/// that do
 std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const ProblemEntry>& problem,
                                                    const std::string& to);
-/// A problem without the walls that belong to it, which exist in all its charts. Other problems are returned unchanged.
+/// Returns a problem without the walls that belong to it, which exist in all its charts. Other problems are returned
+/// unchanged.
 std::shared_ptr<const ProblemEntry> without_own_walls(const std::shared_ptr<const ProblemEntry>& problem);
-/// The coordinates of an entry; empty if the problem has only one chart.
+/// Returns the coordinates of an entry; empty if the problem has only one chart.
 std::string coordinates_of(const ProblemEntry& problem);
 
-/// Converts a sequence of states. If the old coordinates have no angles, a new angle continues from the state before
+/// Converts a sequence of states. If the old coordinates have no angles, a new angle continues from the previous state
 /// without jumps by whole turns.
 class StateConverter {
  public:
   /// Converts between two entries of one problem that differ only in their charts.
-  /// @param parameters of the problem; missing ones have their defaults
+  /// @param parameters parameters of the problem; missing ones have their defaults
   StateConverter(const std::shared_ptr<const ProblemEntry>& from, const std::shared_ptr<const ProblemEntry>& to,
                  const Texts& parameters = {});
   /// Converts between charts given by name, for any problem that has both, preferably one with `size` coordinates.
   /// @throws Error if no problem has both
   StateConverter(const std::string& from, const std::string& to, std::size_t size = 0);
-  /// @throws Error if the chart does not cover the state, e.g. polar coordinates at r = 0, or the state has another
-  /// size
+  /// @throws Error if the chart does not cover the state, for example polar coordinates at r = 0, or the state has
+  /// another size
   CanonicalState operator()(const CanonicalState& state);
   /// @throws Error with the residual if the state or its velocity violates the constraints of its chart
   void require_on_constraints(const CanonicalState& state) const;
-  /// The indices in q of the angles whose whole turns cannot be seen in the old coordinates.
+  /// Indices in q of the angles whose whole turns cannot be seen in the old coordinates.
   const std::vector<std::size_t>& turning() const { return turning_; }
-  /// The largest change so far of such an angle between two states. Above pi whole turns may be lost, so a value near
-  /// pi means that the states are too far apart.
+  /// Largest change so far of such an angle between two states. Whole turns are lost above pi, so a value near pi means
+  /// that the states are too far apart.
   double largest_turn() const { return largest_turn_; }
 
  private:

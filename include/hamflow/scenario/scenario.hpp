@@ -1,4 +1,4 @@
-// A scenario: everything that a run needs, read from TOML and checked before the run starts.
+// A scenario: everything that a run needs. It is read from TOML and checked before the run starts.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace hamflow {
 
-/// The value given for a key and its position; line 0: given with --set.
+/// Value of a key and its position; line 0: given with --set.
 struct Setting {
   std::string text;
   int line = 0;
@@ -26,20 +26,21 @@ struct Setting {
 /// A zero of an expression that a run locates, counts and records.
 struct UserEvent {
   std::string name;
-  Section zero;        // by expression, with value 0
+  Section zero;        // given as an expression with value 0
   bool stops = false;  // the run ends with the step of the event
 };
 
 struct Scenario {
-  std::string file;  // name given by the user
+  std::string file;  // file name as the user gave it
   std::string text;  // the scenario that is run: the text of the file with every --set merged in
   std::shared_ptr<const ProblemEntry> problem{};
   Request request;
   double dt = 0;
   std::int64_t steps = 0;
   std::int64_t record_every = 1;
-  std::vector<std::string> record;  // times of samples, number expressions in the order of the run; empty: by steps
-  std::vector<std::int64_t> record_steps;  // the steps from which the partial steps to these times are taken
+  // times of samples, number expressions in the order of the run; empty: samples by steps
+  std::vector<std::string> record;
+  std::vector<std::int64_t> record_steps;  // steps from which the partial steps to these times are taken
   std::int64_t checkpoint_every = 0;       // in steps; 0: by wall time
   std::string folder;                      // empty: derived from the name of the file
   std::vector<std::string> formats{"h5"};
@@ -48,7 +49,7 @@ struct Scenario {
   std::optional<NamedExpression> hamiltonian{};  // H(q, p, t), recorded with the samples; only if H depends on t
   std::size_t lyapunov = 0;                      // number of exponents to measure
   bool eigenvalues = false;                      // measure the eigenvalues of the derivative of all steps
-  std::optional<Section> section{};              // the Poincare section to record
+  std::optional<Section> section{};              // Poincare section to record
   std::vector<UserEvent> events;                 // declared by the user
   std::int64_t record_events = 100000;           // largest number of rows in each table of events
   bool map = false;                              // the steps are a map and do not approximate a flow
@@ -58,14 +59,14 @@ struct Scenario {
   std::vector<double> start_q;                   // in double, canonical
   std::vector<double> start_p;
   std::optional<std::uint64_t> start_contents{};  // hash of the numbers, if the start is read from a file
-  std::map<std::string, Setting> settings;        // every key that was given, by its dotted path
+  std::map<std::string, Setting> settings;        // every given key, by its dotted path
 };
 
 struct Reading {
   std::optional<Scenario> scenario;  // set if there are no complaints
   std::vector<Complaint> complaints;
-  std::string no_start;               // why no start has the requested energy or component
-  std::optional<Scenario> startless;  // for a member of a sweep whose only error is no_start
+  std::string no_start;               // explains why no start has the requested energy or component
+  std::optional<Scenario> startless;  // scenario of a member of a sweep whose only error is no_start
 };
 
 /// @param sets PATH=VALUE texts that override the file   @throws FileError if the file cannot be read
@@ -73,14 +74,14 @@ Reading read_scenario(const std::filesystem::path& file, const std::vector<std::
 /// The same for a text that was read already. Messages use `name` for the file.
 Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets);
 
-/// The text of a scenario file.   @throws FileError
+/// Returns the text of a scenario file.   @throws FileError
 std::string scenario_text(const std::string& file);
 
-/// The smallest spacing with at most 10^4 samples, start and end included.
+/// Returns the smallest spacing with at most 10^4 samples, including start and end.
 std::int64_t default_record_every(std::int64_t steps, std::size_t coordinates = 0);
-/// The number of samples: the start, every `record_every`-th step, and the last one.
+/// Returns the number of samples: the start, every `record_every`-th step, and the last one.
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every);
-/// The number of samples of a scenario, by steps or at given times.
+/// Returns the number of samples of a scenario, by steps or at given times.
 std::int64_t sample_count(const Scenario& scenario);
 
 }  // namespace hamflow

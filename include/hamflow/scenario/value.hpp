@@ -14,7 +14,7 @@
 
 namespace hamflow {
 
-/// A value of TOML: true or false, a whole number, a number, a text, a list, or a table.
+/// A value of TOML: a boolean, a whole number, a number, a text, a list, or a table.
 struct Value {
   using List = std::vector<Value>;
   using Table = std::vector<std::pair<std::string, Value>>;
@@ -31,7 +31,7 @@ struct Value {
   Value(const std::vector<double>& numbers) : content(List(numbers.begin(), numbers.end())) {}  // NOLINT
 };
 
-/// The TOML text of a scenario. Numbers have the fewest digits that read back exactly.
+/// Returns the TOML text of a scenario. Numbers have the fewest digits that read back exactly.
 /// @throws Error if a key occurs twice, or lists and tables are nested deeper than a scenario allows
 std::string scenario_text(const Value::Table& tree);
 
@@ -39,9 +39,9 @@ std::string scenario_text(const Value::Table& tree);
 struct ChosenProblem {
   std::shared_ptr<const ProblemEntry> entry{};
   std::map<std::string, std::string> variant{};
-  Texts parameters{};  // complete
+  Texts parameters{};  // all parameters of the problem
 };
-/// Reads the problem of a table [problem], in which the start may be missing.
+/// Reads the problem of a table [problem]. The start may be missing.
 /// @throws Rejection if other keys are wrong
 ChosenProblem read_problem_tree(const Value::Table& problem);
 

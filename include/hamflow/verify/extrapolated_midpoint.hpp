@@ -1,12 +1,12 @@
-// Gragg's modified midpoint rule, extrapolated in h^2 (Aitken-Neville), with adaptive sub-steps. It has any order in
-// any arithmetic and is the second method by which a reference solution is checked.   [HNW1993, II.9] Scenarios cannot
-// choose it. It shares only the derivatives of H with the other methods.
+// Gragg's modified midpoint rule, extrapolated in h^2 (Aitken-Neville), with adaptive sub-steps.   [HNW1993, II.9] It
+// has any order in any arithmetic. A reference solution is checked with it, because it shares only the derivatives of H
+// with the other methods. Scenarios cannot choose it.
 //
-// A sub-step of length tau has K columns of 2, 4, ..., 2 K parts. With separate max-norms of the q- and the p-block,
-//     error = max over both blocks of |T_K,K - T_K,K-1|/(tolerance max(|x0|, |x1|, |tau x0'|)) <= 1,
-//     next tau = tau clamp(0.8 error^(-1/(2K - 1)), 1/10, 4).
-// K grows with the number of digits, which is about the cheapest choice. The increment of a sub-step is extrapolated,
-// not the state, so that its rounding is relative to the increment.
+// A sub-step of size tau has K columns of 2, 4, ..., 2 K parts. With separate max-norms of the q- and the p-block,
+//   error = max over both blocks of |T_K,K - T_K,K-1|/(tolerance max(|x0|, |x1|, |tau x0'|)) <= 1,
+//   next tau = tau clamp(0.8 error^(-1/(2K - 1)), 1/10, 4).
+// K grows with the number of digits, which is about the cheapest choice. The increment of a sub-step is extrapolated
+// instead of the state, so that its rounding error is relative to the increment.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,11 @@
 namespace hamflow {
 
 struct ExtrapolationOptions {
-  double tolerance = 1e-18;  // on the error of a sub-step, relative to the size of q and to the size of p
+  double tolerance = 1e-18;  // bounds the error of a sub-step, relative to the size of q and to the size of p
   int max_substeps = 1000000;
 };
 
-/// The number of columns for a tolerance: 10 for 18 digits, 17 for 32.
+/// Returns the number of columns for a tolerance: 10 for 18 digits, 17 for 32.
 inline int extrapolation_columns(double tolerance) {
   return std::clamp(static_cast<int>(std::ceil(-std::log10(tolerance) / 2)) + 1, 4, 150);
 }
@@ -75,7 +75,7 @@ class ExtrapolatedMidpointMethod {
           z = start;
           return Outcome::stopped;
         }
-        // NaN means that the sub-step left the domain of H.
+        // growth is NaN if the sub-step left the domain of H.
         const double growth = 0.8 * std::pow(error, -1.0 / (2 * columns_ - 1));
         proposal = part * (growth > 4 ? 4 : growth > 0.1 ? growth : 0.1);
         if (repeated && error <= 1 && proposal > part) proposal = part;
@@ -89,7 +89,7 @@ class ExtrapolatedMidpointMethod {
     return Outcome::done;
   }
 
-  /// The memory is the length that the last sub-step proposed for the next one; 0: none.
+  /// The method only remembers the size that the last sub-step proposed for the next one; 0: none.
   void invalidate() { proposed_ = 0; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -98,7 +98,7 @@ class ExtrapolatedMidpointMethod {
 
  private:
   using V = Vector<Real, n>;
-  /// A change of state, or its rate.
+  /// A change of the state, or its rate.
   struct Change {
     V q;
     V p;
@@ -118,7 +118,7 @@ class ExtrapolatedMidpointMethod {
       to.p[i] += factor * rate.p[i];
     }
   }
-  /// The rate at the state changed by `change`.
+  /// Computes the rate at the state plus `change`.
   void rate_at(const P& problem, const Change& change, Change& rate) {
     V q = q_;
     V p = p_;
@@ -128,8 +128,8 @@ class ExtrapolatedMidpointMethod {
     }
     derivative(problem, q, p, rate);
   }
-  /// Whether a trial has left the scale of the motion so far that its columns cannot agree. Continuing would only cost
-  /// time: the sine of an angle of 10^(10^6) takes seconds in mp.
+  /// Returns whether a trial is so far from the scale of the motion that its columns cannot agree. Continuing would
+  /// only cost time: the sine of an angle of 10^(10^6) takes seconds in mp.
   bool is_astray(const Change& change) const {
     for (std::size_t i = 0; i < change.q.size(); ++i) {
       const double size =
@@ -138,7 +138,7 @@ class ExtrapolatedMidpointMethod {
     }
     return false;
   }
-  /// The limit of a trial: 10^60 times the state and its rate.
+  /// Returns the bound of a trial: 10^60 times the state and its rate.
   double limit(const Real& tau) const {
     double size = 0;
     for (std::size_t i = 0; i < q_.size(); ++i) {
@@ -148,7 +148,7 @@ class ExtrapolatedMidpointMethod {
     }
     return 1e60 * size;
   }
-  /// The increment over tau in an even number of parts, with smoothing at the end (II.9.13c).
+  /// Computes the increment over tau in an even number of parts, smoothed at the end (II.9.13c).
   Change modified_midpoint(const P& problem, const Real& tau, int parts) {
     const Real h = tau / Real(parts);
     Change before{zeros_like(q_), zeros_like(q_)};
@@ -205,7 +205,7 @@ class ExtrapolatedMidpointMethod {
     return std::fmax(error_of(q_.size() - clocks_of(problem), q_, last.q, other.q, first_.q, tau),
                      error_of(p_.size(), p_, last.p, other.p, first_.p, tau));
   }
-  /// Only the first `count` entries of a block are used; an entry for the time follows them.
+  /// Uses only the first `count` entries of a block, because an entry for the time may follow them.
   double error_of(std::size_t count, const V& x, const V& last, const V& other, const V& rate, const Real& tau) const {
     Real error(0);
     Real size(0);
@@ -230,7 +230,7 @@ class ExtrapolatedMidpointMethod {
   long long evaluations_ = 0;
 };
 
-/// The recipe. Its name is in no list; a Request with it goes to ProblemEntry::simulate_erased.
+/// The recipe of the method. No list contains its name; a Request with it goes to ProblemEntry::simulate_erased.
 struct ExtrapolatedMidpoint {
   static constexpr const char* name = "(extrapolation)";
   static constexpr bool implicit = false;

@@ -1,4 +1,4 @@
-// The drift class of energies in the log of any program. Only times and energies are known.
+// Finds the drift class of energies in the log of any program, from times and energies alone.
 #pragma once
 
 #include <cstddef>
@@ -9,38 +9,38 @@
 
 namespace hamflow {
 
-/// The result for the energies of a log.
+/// Result for the energies of a log.
 struct LogCertificate {
-  RunDrift drift;                        // class, reason, growth exponent; increments in units of the largest deviation
-  std::optional<double> energy_level{};  // max |E - E0|/scale; none: the scale is unknown
-  std::optional<double> scale{};         // the given scale, or |E0|; none: E0 is 0
+  // drift class, reason and growth exponent; increments are in units of the largest deviation
+  RunDrift drift;
+  std::optional<double> energy_level{};  // max |E - E0|/scale; nullopt: the scale is unknown
+  std::optional<double> scale{};         // the given scale, or |E0|; nullopt: E0 is 0
   std::size_t samples = 0;
-  /// None: too few samples.
+  /// nullopt: too few samples.
   std::optional<double> growth_exponent() const {
     return drift.blocks < RunDrift::fewest_blocks ? std::nullopt : std::optional<double>(drift.growth_exponent);
   }
 };
 
-/// The index of the first time that is not larger than the one before; nullopt: the times increase strictly.
+/// Returns the index of the first time that is not larger than the one before; nullopt: the times increase strictly.
 std::optional<std::size_t> first_time_that_does_not_rise(const std::vector<double>& t);
 
-/// Judges a log by the rules of a run's certificate (classify_run). A log has no q and p, therefore:
-/// - only oscillations of the energy itself are seen, from block to block; a class needs at least two, the classes
-/// bounded
-///   and random walk need 16;
-/// - `linear` needs a rate that is the same in the four quarters of the log, up to noise and the change itself;
-/// otherwise
-///   it may be a part of an oscillation slower than the log. A straight line of E or of log |E|, also beneath
-///   independent noise, needs no oscillation. `bounded` needs that the energy has no direction in any quarter;
-/// - the rounding is the one of four times the largest energy, because its parts are larger than the sum, or half of
-/// the
-///   smallest difference of two energies if that is larger, as in a log with few digits; one rounding is assumed
-///   between two samples.
+/// Judges a log by the rules of a run's certificate (classify_run). Because a log has no q and p, some rules differ:
 ///
-/// Times need not be equidistant: the log is divided into blocks of equal duration, each of which gives one sample. If
-/// a gap is longer than half of the 32nd part of the log, the class is undecided.
+/// - Only oscillations of the energy itself are seen, from block to block. A class needs at least two of them; the
+///   classes bounded and random walk need 16.
+/// - `linear` needs a rate that is the same in the four quarters of the log, up to noise and the change itself.
+///   Otherwise the change may be a part of an oscillation slower than the log. If E or log |E| is a straight line,
+///   possibly with independent noise, no oscillation is needed.
+/// - `bounded` needs that the energy has no trend in any quarter.
+/// - The rounding error is taken from four times the largest energy, because T and V are larger than their sum. Half of
+///   the smallest difference of two energies replaces it if that is larger, as in a log with few digits. One rounding
+///   between two samples is assumed.
 ///
-/// @param scale by which the error is divided; without it |E0|, unless E0 is 0
+/// Times need not be equidistant: the log is divided into blocks of equal duration, and each gives one sample. If a gap
+/// is longer than half of the 32nd part of the log, the class is undecided.
+///
+/// @param scale the energy error is divided by it; default: |E0|, unless E0 is 0
 /// @throws Error for different lengths, fewer than two samples, numbers that are not finite, times that do not increase
 /// strictly, and a scale that is not positive
 LogCertificate certify_log(const std::vector<double>& t, const std::vector<double>& energy,

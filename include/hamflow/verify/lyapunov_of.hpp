@@ -1,5 +1,5 @@
-// The largest Lyapunov exponent with problem and method as types, for parameter maps of many orbits. Orbit and tangent
-// vector form one dual number, which the kernel of the step advances.
+// The largest Lyapunov exponent for a problem and a method that are known as types, for parameter maps of many orbits.
+// State and tangent vector together are dual numbers, which the kernel of the step advances.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace hamflow {
 
-/// Like largest_lyapunov(StepMap); NaN if the orbit does not stay finite. For problems of fixed size the loop allocates
-/// nothing. Several threads may call it.
+/// Like largest_lyapunov(StepMap). Returns NaN if the orbit does not stay finite. For problems of fixed size the loop
+/// allocates nothing. Several threads may call it.
 template <class P, class Recipe>
 double largest_lyapunov(const P& problem, const Recipe& recipe, const Vector<double, P::dimension>& q,
                         const Vector<double, P::dimension>& p, double h, std::int64_t steps,
@@ -49,7 +49,7 @@ double largest_lyapunov(const P& problem, const Recipe& recipe, const Vector<dou
       z.q[i].slope[0] /= length;
       z.p[i].slope[0] /= length;
     }
-    method.invalidate();  // the kick that the method keeps has the derivative along the vector before normalisation
+    method.invalidate();  // the cached kick carries a derivative along the vector before it was normalised
     log = std::log(length);
     if (done >= 0) total += log;
     block = steps_between(block, {&log, 1});

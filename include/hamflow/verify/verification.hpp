@@ -1,4 +1,4 @@
-// `hamflow verify`: measures several methods on all cores.
+// Measures several methods on all cores, for `hamflow verify`.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@
 namespace hamflow {
 
 struct VerificationRequest {
-  std::vector<std::string> methods;  // e.g. "cg(1,5)"
-  bool all = false;                  // every method of the catalogue, in place of `methods`
+  std::vector<std::string> methods;  // for example "cg(1,5)"
+  bool all = false;                  // measure every method of the catalogue, in place of `methods`
   std::string problem{};             // empty: the default regions of each method
 };
 
 class Verification {
  public:
-  /// Starts measuring at once, in background threads.
+  /// Starts to measure at once, in background threads.
   /// @throws Rejection for unknown methods or an unknown problem   @throws Error if a method does not allow the problem
   explicit Verification(const VerificationRequest& request);
   /// Stops the measurements and waits until the threads have ended.
@@ -26,10 +26,10 @@ class Verification {
   Verification(const Verification&) = delete;
   Verification& operator=(const Verification&) = delete;
 
-  /// Waits until every method is measured, or `goes_on`, which is called 50 times a second, returns false.
+  /// Waits until every method is measured or `goes_on` returns false. `goes_on` is called 50 times a second.
   /// @return false if goes_on() did
   bool wait(const std::function<bool()>& goes_on);
-  /// The methods measured so far, in the order of the request; on a problem with walls two rows each.
+  /// Returns the methods measured so far, in the order of the request. A method has two rows on a problem with walls.
   std::vector<PropertyRow> rows();
 
  private:
@@ -37,7 +37,7 @@ class Verification {
   std::unique_ptr<Impl> impl_;
 };
 
-/// property_json(), with "status": "interrupted" if measuring was stopped.
+/// Returns property_json(), with "status": "interrupted" if the measurements were stopped.
 std::string verification_json(const std::vector<PropertyRow>& rows, bool interrupted);
 
 }  // namespace hamflow

@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// The recommended methods with a line each and the names of all others; with `all`, a line for every method.
+/// Returns a line for each recommended method and the names of all others; with `all`, a line for every method.
 std::string methods_text(bool all);
 std::string problems_text();
 std::string methods_json();
@@ -17,7 +17,7 @@ std::string problems_json();
 
 struct CatalogueText {
   std::string text;
-  std::vector<std::string> formulas{};  // for a problem: H of each of its variants, as LaTeX
+  std::vector<std::string> formulas{};  // for a problem: H of each of its variants as LaTeX
 };
 
 /// Describes a problem, a method ("cg" or "cg(1,5)"), a kind of figure, or the keys of a table of scenarios. Returns
@@ -25,8 +25,8 @@ struct CatalogueText {
 std::optional<CatalogueText> catalogue_text(const std::string& name);
 /// Describes a scenario: its problem, the structure of H and the start.
 CatalogueText description_of(const Scenario& scenario);
-/// The message that a name is unknown, with the nearest known name.
-/// @param experiments of the theses, if the caller knows them
+/// Returns the message that a name is unknown, with the nearest known name.
+/// @param experiments names of the experiments of the theses, if the caller knows them
 std::string not_in_catalogue(const std::string& name, const std::vector<std::string>* experiments = nullptr);
 
 }  // namespace hamflow

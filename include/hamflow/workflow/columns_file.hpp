@@ -14,9 +14,9 @@ struct ColumnGroup {
   std::vector<std::pair<std::string, std::vector<double>>> columns;
 };
 
-/// Names and texts, and groups of columns.
+/// Contents of the file: attributes, texts, and groups of columns.
 struct ColumnsFile {
-  std::vector<std::pair<std::string, std::string>> attributes;  // of the root group
+  std::vector<std::pair<std::string, std::string>> attributes;  // names and values, for the root group
   std::vector<std::pair<std::string, std::string>> texts;       // each a dataset of one string
   std::vector<ColumnGroup> groups;                              // each column a dataset of doubles
 };

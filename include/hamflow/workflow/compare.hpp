@@ -1,4 +1,5 @@
-// Work-precision comparison: runs several methods with several step sizes on one problem; table, files and figure.
+// Work-precision comparison: runs several methods with several step sizes on one problem, and makes a table, files and
+// a figure.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +14,12 @@ namespace figures {
 struct Page;
 }
 
-/// The request of a comparison, as it was typed.
+/// A comparison as the user typed it.
 struct ComparisonInput {
-  std::string text;                  // text of the scenario, whose own method is not run
+  std::string text;                  // text of the scenario; its own method is not run
   std::string name;                  // name of the scenario in messages
   std::vector<std::string> sets{};   // PATH=VALUE texts that override the scenario
-  std::vector<std::string> methods;  // e.g. "cg(1,5)"
+  std::vector<std::string> methods;  // for example "cg(1,5)"
   std::vector<std::string> dts{};    // number expressions; empty: from twice the scenario's dt to a sixteenth of it
 };
 
@@ -45,12 +46,13 @@ struct ComparisonReport {
 /// @param progress called with the state of the comparison; returns false to stop   @throws Error
 ComparisonReport compare_methods(const ComparisonRequest& request,
                                  const std::function<bool(const ComparisonProgress&)>& progress = {});
-/// The work-precision figure (hamflow/figures/page.hpp).   @throws Error if no run has an error that can be drawn
+/// Returns the work-precision figure (hamflow/figures/page.hpp).   @throws Error if no run has an error that can be
+/// drawn
 figures::Page comparison_page(const Comparison& comparison);
 /// Draws the work-precision figure into a file.   @param file .svg, .pdf or .png   @throws Error, FileError
 void draw_comparison(const Comparison& comparison, const std::filesystem::path& file);
 
-/// Empty if the file has the extension of a figure, else the reason why it is refused.
+/// Returns an empty text if the file has the extension of a figure, otherwise the reason why it is refused.
 std::string refused_comparison_figure(const std::filesystem::path& file);
 
 /// Writes compare.json, compare.csv and, if an error can be drawn, figures/ into a comparison_folder().

@@ -13,42 +13,42 @@
 
 namespace hamflow {
 
-/// A state as text ("q = [...]\np = [...]\n") and as JSON, {"coordinates", "q", "p"}.
+/// Return a state as text ("q = [...]\np = [...]\n") and as JSON, {"coordinates", "q", "p"}.
 std::string state_text(const CanonicalState& state);
 std::string state_json(const std::string& system, const CanonicalState& state);
 
-/// The start of a scenario in the coordinates `to`.   @throws Error if its problem has no such coordinates
+/// Returns the start of a scenario in the coordinates `to`.   @throws Error if its problem has no such coordinates
 CanonicalState converted_start(const Scenario& scenario, const std::string& to);
 /// The same as JSON; in arithmetic with more digits than double the numbers are texts with all digits.
 std::string converted_start_json(const Scenario& scenario, const std::string& to);
 struct ConvertedScenario {
   std::string text;
-  std::vector<std::string> notes;  // keys of it that are not used
+  std::vector<std::string> notes;  // notes on keys that are not used
 };
-/// The scenario in the coordinates `to`, without its comments.
-/// @param sets PATH=VALUE texts for the converted scenario, e.g. a method that only the new coordinates allow
+/// Returns the scenario in the coordinates `to`, without its comments.
+/// @param sets PATH=VALUE texts for the converted scenario, for example a method that only the new coordinates allow
 /// @throws Error if the problem has no such coordinates or the method cannot be used in them   @throws Rejection
 ConvertedScenario converted_scenario(const Scenario& scenario, const std::string& to,
                                      const std::vector<std::string>& sets = {});
-/// The keys of the scenario that are written in its old coordinates and are left out of the converted scenario.
+/// Returns the keys of the scenario that refer to its old coordinates and are therefore left out of the converted one.
 std::string left_out_of_converted(const Scenario& scenario, const std::string& to);
 
-/// Whether a path is a folder or an HDF5 file. The name does not matter.
+/// Returns whether a path is a folder or an HDF5 file. The name does not matter.
 bool is_run(const std::filesystem::path& path);
 
 struct ConvertedSamples {
-  Table table;  // q, p; with more digits than double also digits/q, digits/p, digits/energy, digits/t
+  Table table;  // q and p; with more digits than double also digits/q, digits/p, digits/energy, digits/t
   StateNames names;
   /// A warning if an angle changes so much between two samples that whole turns may be missing; else empty.
   std::string note;
 };
-/// The samples of a run in the coordinates `to`.   @throws Error if a state cannot be converted
+/// Returns the samples of a run in the coordinates `to`.   @throws Error if a state cannot be converted
 ConvertedSamples converted_samples(const Scenario& scenario, const Table& samples, const std::string& to);
 
 /// A stored run in the coordinates `to`.
 class ConvertedRun {
  public:
-  /// @param run its folder or run.h5   @throws Error if a state cannot be converted   @throws FileError
+  /// @param run folder of the run, or its run.h5   @throws Error if a state cannot be converted   @throws FileError
   ConvertedRun(const std::filesystem::path& run, const std::string& to);
   ~ConvertedRun();
   ConvertedRun(const ConvertedRun&) = delete;
@@ -61,9 +61,9 @@ class ConvertedRun {
   std::string write_h5(const std::filesystem::path& target) const;
   /// See ConvertedSamples.
   const std::string& note() const;
-  /// Keys of the scenario that the converted scenario does not have.
+  /// Returns the keys of the scenario that the converted scenario does not have.
   std::string left_out() const;
-  /// Columns of the run that csv() and json() do not have.
+  /// Returns the columns of the run that csv() and json() do not have.
   std::vector<std::string> columns_left_out() const;
 
  private:

@@ -20,7 +20,7 @@ struct FigureRequest {
   std::string kind{};                       // see figure_kinds(); empty: usual_figure() of the first run
   std::filesystem::path file;               // .svg, .pdf or .png
   std::string x{};                          // a column, for kinds that draw columns; empty: the default
-  std::vector<std::string> y{};             // columns, likewise
+  std::vector<std::string> y{};             // columns, for the same kinds; empty: the default
   std::vector<double> at{};                 // times, for kinds that draw single samples; empty: the default
   std::string size{};                       // "8.5x6" (centimetres), "85x60mm", "3.35x2.4in"; empty: the default
   int dpi = 0;                              // pixels per inch of a .png; 0: 300
@@ -42,8 +42,8 @@ figures::Page figure_page(const Scenario& scenario, const RunTables& tables, con
 
 /// Draws the figures that output.figures of the scenario requests, each as .svg, .pdf and .png, into figures/ of the
 /// folder of the run.
-/// @param tables of the run; null: they are read from its folder
-/// @return for each figure that could not be drawn the reason, e.g. a section without points   @throws FileError
+/// @param tables tables of the run; null: they are read from its folder
+/// @return the reason for each figure that could not be drawn, for example a section without points   @throws FileError
 std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder,
                                       const RunTables* tables = nullptr);
 

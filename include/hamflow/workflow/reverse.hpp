@@ -1,5 +1,5 @@
-// Tests time reversibility: integrates forward, negates the momenta, integrates again, negates the momenta, and
-// compares with the start.
+// Tests time reversibility: integrates forward, negates the momenta, integrates forward again, negates the momenta, and
+// compares the result with the start.
 #pragma once
 
 #include <filesystem>
@@ -12,83 +12,84 @@
 
 namespace hamflow {
 
-/// The return error of N bodies.   [Sonnleitner2010, p. 72]
+/// Error of N bodies after a reversal.   [Sonnleitner2010, p. 72]
 struct ReturnError {
   LongNumber position;      // sqrt(sum |difference|^2)/N
-  LongNumber momentum;      // the same for the momenta
+  LongNumber momentum;      // the same for momenta
   LongNumber position_rms;  // sqrt(sum |difference|^2/N)
-  LongNumber momentum_rms;  // the same for the momenta
+  LongNumber momentum_rms;  // the same for momenta
 };
-/// The part of a reversal that only bodies and particles have.
+/// Results that only reversals of bodies and particles have.
 struct BodiesReturned {
-  std::optional<ReturnError> error{};               // none: the reversal did not finish
-  std::optional<std::int64_t> pair_evaluations{};   // pair forces computed; none: they are not counted
-  std::optional<std::int64_t> force_evaluations{};  // none: pairs are counted instead, or no forces were computed
-  std::string note{};                               // why pairs are not counted; else empty
+  std::optional<ReturnError> error{};               // nullopt: the reversal did not finish
+  std::optional<std::int64_t> pair_evaluations{};   // number of pair forces; nullopt: they are not counted
+  std::optional<std::int64_t> force_evaluations{};  // nullopt: pairs are counted instead, or no forces were computed
+  std::string note{};                               // explains why pairs are not counted; else empty
 };
 
-/// The results of a reversal, as `hamflow reverse` prints them and reverse.json holds them.
+/// Results of a reversal, as `hamflow reverse` prints them and reverse.json contains them.
 struct ReversalSummary {
   std::string status;  // "done", "interrupted", "failed"
   std::string problem;
   std::string method;
   std::string arithmetic;
   double dt = 0;
-  std::int64_t steps = 0;  // each way
+  std::int64_t steps = 0;  // in each direction
   StateSummary start{};
-  std::string start_hash{};  // of the stored bits, 16 hexadecimal digits
-  // From here to end_hash: absent or empty if the reversal did not finish.
+  std::string start_hash{};  // hash of the stored bits, 16 hexadecimal digits
+  // The entries from here to end_hash are nullopt or empty if the reversal did not finish.
   std::optional<StateSummary> returned{};
-  std::optional<LongNumber> distance{};           // |returned - start|, of the group with the largest relative distance
-  std::optional<LongNumber> relative_distance{};  // distance/size of this group along the motion
-  std::optional<std::vector<GroupDistance>> distances{};  // for each group of numbers with the same unit
+  std::optional<LongNumber> distance{};           // |returned - start| of the group with the largest relative distance
+  std::optional<LongNumber> relative_distance{};  // distance divided by the size of this group along the motion
+  std::optional<std::vector<GroupDistance>> distances{};  // one for each group of numbers with the same unit
   std::optional<bool> bit_exact{};
-  std::optional<double> digits_lost{};  // log10 of the relative distance over half of epsilon; 0: no digit is lost
+  // log10 of the relative distance divided by half of epsilon; 0: no digit is lost
+  std::optional<double> digits_lost{};
   std::string turn_hash{};
   std::string end_hash{};
   bool method_reversible = false;
-  bool expected_bit_exact = false;         // problem, method and arithmetic guarantee that every bit returns
-  std::string note{};                      // how to read the distance; empty: no note is needed
-  std::optional<BodiesReturned> bodies{};  // none: the problem has no bodies
-  std::vector<Warning> warnings{};         // about the motion itself
-  std::optional<RunError> error{};         // none: the reversal did not fail
+  bool expected_bit_exact = false;         // problem, method and arithmetic guarantee a bit-exact reversal
+  std::string note{};                      // explains how to read the distance; empty: no note is needed
+  std::optional<BodiesReturned> bodies{};  // nullopt: the problem has no bodies
+  std::vector<Warning> warnings{};         // warnings about the motion itself
+  std::optional<RunError> error{};         // nullopt: the reversal did not fail
 };
 
-/// The text of reverse.json.
+/// Returns the text of reverse.json.
 std::string reversal_json(const ReversalSummary& summary);
-/// The summary as text, one line for each entry.
+/// Returns the summary as text, one line for each entry.
 std::string reversal_text(const ReversalSummary& summary);
 
-/// The result of a reversal. The summary has its numbers; some are repeated here.
+/// Result of a reversal. Some numbers of the summary are repeated here.
 struct ReversalReport {
   ReversalSummary summary;
   std::string status;                 // status of the summary
-  std::string message;                // after a failure: a sentence that says what failed
+  std::string message;                // after a failure: says what failed
   std::string hint;                   // after a failure: what can be tried
-  Reversal reversal;                  // empty if the reversal was complete before, with Existing::resume
-  bool expected_bit_exact = false;    // problem, method and arithmetic guarantee that every bit returns
-  std::string note;                   // how to read the distance; empty: no note is needed
-  std::vector<std::string> warnings;  // about the motion itself
+  Reversal reversal;                  // empty if Existing::resume found a complete reversal
+  bool expected_bit_exact = false;    // problem, method and arithmetic guarantee a bit-exact reversal
+  std::string note;                   // explains how to read the distance; empty: no note is needed
+  std::vector<std::string> warnings;  // warnings about the motion itself
   std::string json;                   // reversal_json(summary)
   std::string text;                   // reversal_text(summary)
 };
 
-/// @param pulse called with the number of steps taken forward and back; returns false to stop   @throws Error
+/// @param pulse called with the number of steps taken over both halves; returns false to stop   @throws Error
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t step)>& pulse = {});
 
 /// Settings that do not change the result of a reversal.
 struct ReversalSettings {
-  /// Output folder: reverse.json, reverse.h5 with the states at the start, the turning point and the end, and during
-  /// the reversal the checkpoint reversal.bin. Empty: nothing is written.
+  /// Output folder. It gets reverse.json, reverse.h5 with the states at the start, the turning point and the end, and
+  /// during the reversal the checkpoint reversal.bin. Empty: nothing is written.
   std::filesystem::path folder{};
   Existing existing = Existing::refuse;
-  /// Called several times a second with the number of steps taken forward and back; returns false to stop.
+  /// Called several times a second with the number of steps taken over both halves; returns false to stop.
   std::function<bool(std::int64_t step)> pulse{};
   /// Called with each note, a sentence.
   std::function<void(const std::string& note)> note{};
 };
 
-/// @throws Rejection if a reversal is to be resumed and the one in the folder has another scenario
+/// @throws Rejection if a reversal shall be resumed and the one in the folder has another scenario
 /// @throws FileError if the folder cannot be used   @throws Error
 ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings);
 

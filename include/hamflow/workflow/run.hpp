@@ -21,9 +21,9 @@ namespace hamflow {
 struct RunSettings {
   std::filesystem::path folder{};  // empty: nothing is written
   Existing existing = Existing::refuse;
-  bool samples = true;  // without a folder: whether samples, sections, events and bounces are kept in memory
-  /// Called several times a second with the number of steps taken; returns false to stop after the present step.
-  /// Exceptions of pulse and of observers end the run and reach the caller; the files are then as after a kill.
+  bool samples = true;  // without a folder: keep samples, sections, events and bounces in memory
+  /// Called several times a second with the number of steps taken; returns false to stop after the current step.
+  /// Exceptions of pulse and of observers end the run and reach the caller; the files are then left as after a kill.
   std::function<bool(std::int64_t step)> pulse{};
   /// Called with each note, a sentence.
   std::function<void(const std::string& note)> note{};
@@ -31,26 +31,27 @@ struct RunSettings {
   std::vector<Observer*> observers{};
 };
 
-/// The result of a run. The summary has its numbers; some are repeated here, as the simulation returns them.
+/// Result of a run. Some numbers of the summary are repeated here as the simulation returns them.
 struct RunReport {
   Summary summary;
-  std::string status;        // status of the summary: "done", "interrupted", "failed"
-  std::string message;       // after a failure: a sentence that says what failed
-  std::string hint;          // after a failure: what can be tried
-  std::string details;       // iteration history of an implicit step without a solution
-  std::string file_trouble;  // why a file could not be written; empty: all were. The results here are valid anyway
-  std::vector<std::string> warnings{};  // "kind: message" each
+  std::string status;   // status of the summary: "done", "interrupted", "failed"
+  std::string message;  // after a failure: says what failed
+  std::string hint;     // after a failure: what can be tried
+  std::string details;  // iteration history of an implicit step without a solution
+  // explains why a file could not be written; empty: all files were written. The results here are valid in any case
+  std::string file_trouble;
+  std::vector<std::string> warnings{};  // each is "kind: message"
   bool drawing_stopped = false;         // the run ended, but pulse() stopped the drawing of its figures
-  bool was_complete = false;            // the resumed run was complete already
+  bool was_complete = false;            // the run to be resumed was already complete
   Outcome outcome = Outcome::done;
-  RunTables tables;  // the records of a run without a folder
+  RunTables tables;  // tables of a run without a folder
   Frame final;
   Excursion energy;
   double energy_scale = 0;
-  std::vector<InvariantExcursion> invariants;  // in the order of the problem
+  std::vector<InvariantExcursion> invariants;  // in the order in which the problem declares them
   std::optional<RunCertificate> certificate;
-  double wall_seconds = 0;  // of all parts of a resumed run
-  std::string json;         // summary_json(summary), as in summary.json
+  double wall_seconds = 0;  // over all parts of a resumed run
+  std::string json;         // summary_json(summary), the content of summary.json
   std::string text;         // summary_text(summary)
 };
 
@@ -58,8 +59,8 @@ struct RunReport {
 /// @throws Error if an observer has no archive()   @throws FileError if the folder cannot be used
 RunReport run(const Scenario& scenario, const RunSettings& settings = {});
 
-/// The folder into which `hamflow run` writes: `out` if given, else the scenario's folder, else <stem of its file>.run
-/// in the working directory.
+/// Returns the folder into which `hamflow run` writes: `out` if given, else the scenario's folder, else <stem of its
+/// file>.run in the working directory.
 std::filesystem::path folder_of(const Scenario& scenario, const std::string& out = {});
 
 }  // namespace hamflow

@@ -1,5 +1,5 @@
-// An interactive run: step size, method and tolerance may change between steps, while state and time are kept. For
-// observers and summaries a session is one simulation, from its start to its present state.
+// Interactive run: step size, method and tolerance may change between steps, while state and time are kept. For
+// observers and summaries a session is one simulation, from its start to its current state.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ class Session final : public Simulation {
  public:
   /// @throws Error
   explicit Session(const Scenario& scenario);
-  Session(const Session&) = delete;  // the simulation holds a pointer to it, to report bounces
+  Session(const Session&) = delete;  // the simulation has a pointer to the session, to report bounces
   Session& operator=(const Session&) = delete;
 
-  /// Returns to the start and keeps the present settings.
+  /// Returns to the start and keeps the current settings.
   void restart();
   /// Changes the step size, a number expression. @throws Error if it is 0 or not a number; then nothing has changed
   void set_step_length(const std::string& text);
@@ -30,17 +30,17 @@ class Session final : public Simulation {
   /// @throws Error if the method has no tolerance or does not allow this one
   void set_tolerance(const std::string& text);
 
-  /// The scenario with the present settings; its text has them, too.
+  /// Returns the scenario with the current settings; its text has them, too.
   Scenario present() const;
   const Request& request() const { return request_; }
-  /// The changes after the first step, in order.
+  /// Changes after the first step, in order.
   const std::vector<SessionChange>& changes() const { return changes_; }
-  /// Whether momenta were negated: the state is then not on the orbit of the start at the session's time.
+  /// Whether momenta were negated. If so, the state is not on the orbit of the start at the session's time.
   bool reversed() const { return reversed_; }
-  /// Bounces off hard walls, in order; at most as many as the scenario records.
+  /// Bounces off hard walls, in order, at most as many as the scenario records.
   const std::vector<Bounce>& bounces() const { return bounces_; }
 
-  /// An observer that finds steps that are too long; the caller runs it together with the other observers.
+  /// Observer that finds steps that are too long. The caller runs it together with the other observers.
   TurnWatch& turns() { return turns_; }
   const TurnWatch& turns() const { return turns_; }
 
@@ -48,13 +48,13 @@ class Session final : public Simulation {
   std::int64_t step() const override;
   void look(Frame& frame) const override;
   void reverse_time() override;
-  /// Time keeps running forward. Errors of the invariants are measured from their values after the call, energy errors
-  /// from the start.
+  /// Time keeps increasing. Errors of the invariants are measured from their values after the call, energy errors from
+  /// the start.
   void negate_momenta() override;
   std::vector<std::byte> bits() const override { return simulation_->bits(); }
   Excursion energy() const override;
   std::optional<ConstraintResiduals> constraints() const override;
-  /// Restarts the range of the present part.
+  /// Restarts the range of the current part only.
   void restart_energy_range() override { simulation_->restart_energy_range(); }
   std::vector<InvariantExcursion> invariants() const override;
   Effort effort() const override;
@@ -81,14 +81,16 @@ class Session final : public Simulation {
   double deviation(const std::vector<double>& values, std::size_t k) const;
 
   Scenario scenario_;
-  Request request_;  // with the present settings; after the first part, with the state in which the part began
-  std::unique_ptr<Simulation> simulation_;  // the present part; its steps and times count from the start of the part
-  /// The last values of method options, each with its declaration, since families may use one name differently.
+  Request request_;  // with the current settings; after the first part, with the state in which the part began
+  // simulation of the current part; its steps and times count from the start of the part
+  std::unique_ptr<Simulation> simulation_;
+  /// Last values of method options, each with its declaration, because families may use one name for different options.
   std::vector<std::pair<const OptionInfo*, std::string>> options_;
   std::vector<SessionChange> changes_;
   bool reversed_ = false;
 
-  // The probe of the simulation knows only one part. It is used until the first change; from then on watch() is.
+  // True until the first change. The simulation measures energy errors of one part only; after a change watch()
+  // measures them.
   bool one_part_ = true;
   std::int64_t step_before_ = 0;
   double time_before_ = 0;
@@ -96,17 +98,18 @@ class Session final : public Simulation {
   Effort effort_before_;
   std::vector<WallCount> bounces_before_;
   std::vector<Bounce> bounces_;
-  bool listens_ = false;  // the simulation reports its bounces
+  bool listens_ = false;  // the simulation reports its bounces to the session
   double initial_energy_ = 0;
   std::string exact_initial_energy_;  // all digits, in arithmetic with more digits than double
   Excursion first_part_;              // range of the energy in the first part
   double worst_energy_ = 0;
-  std::optional<ConstraintResiduals> worst_residuals_;  // before the present part
-  std::vector<std::size_t> sizes_;                      // of the invariants
-  std::vector<double> initial_invariants_;              // at the start
+  std::optional<ConstraintResiduals> worst_residuals_;  // largest residuals before the current part
+  std::vector<std::size_t> sizes_;                      // number of components of each invariant
+  std::vector<double> initial_invariants_;              // values at the start
   std::vector<double> reference_;                       // values from which deviations are measured
-  std::vector<double> offset_;                          // corrects time-dependent invariants: each part starts at t = 0
-  std::vector<double> worst_invariants_;                // one for each invariant
+  // corrects time-dependent invariants, because each part starts at t = 0
+  std::vector<double> offset_;
+  std::vector<double> worst_invariants_;  // one for each invariant
   Frame scratch_;
   TurnWatch turns_{0, false};
 };
@@ -114,11 +117,11 @@ class Session final : public Simulation {
 /// Keeps the start and every n-th step. When there are too many samples, every second one is dropped and n doubles.
 class SampleKeeper final : public Observer {
  public:
-  /// @param most largest number of samples; 0: as many as fit into some 100 megabytes
+  /// @param most largest number of samples; 0: as many as fit into about 100 megabytes
   SampleKeeper(std::int64_t every, std::size_t dimension, std::size_t most = 0);
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
-  /// The samples, including the present state.
+  /// Returns the samples, including the current state.
   std::vector<Frame> with_present(const Simulation& simulation) const;
   void clear() { samples_.clear(); }
   std::int64_t every() const { return every_; }
@@ -129,16 +132,17 @@ class SampleKeeper final : public Observer {
   std::vector<Frame> samples_;
 };
 
-/// The result of the last steps of a session.
+/// Result of the last steps of a session.
 struct SessionOutcome {
   Outcome outcome = Outcome::done;
-  double wall_seconds = 0;  // of all steps
+  double wall_seconds = 0;  // over all steps
 };
 
-/// The summary of a run, with the changes of settings.
+/// Returns the summary of a run, with the changes of settings.
 Summary session_summary(const Session& session, const SessionOutcome& last);
 /// Writes the samples so far into a folder, in the format of a run.
-/// @param replace an existing folder   @throws FileError if it exists and `replace` is false, or cannot be written
+/// @param replace whether an existing folder is replaced   @throws FileError if it exists and `replace` is false, or it
+/// cannot be written
 void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,
                   const std::filesystem::path& folder, bool replace);
 

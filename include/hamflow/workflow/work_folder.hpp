@@ -1,5 +1,5 @@
-// The output folder of a command. It is refused, made, replaced or resumed, and then locked; each file in it is written
-// whole. Run, sweep, comparison, reversal, session and reproduction use this class.
+// Output folder of a command. It is refused, made, replaced or resumed, and then locked; each file in it is written as
+// a whole. Runs, sweeps, comparisons, reversals, sessions and hamflow-reproduce use this class.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,17 @@ struct Scenario;
 enum class Existing {
   refuse,   // throw FileError
   replace,  // remove the files of earlier work of the same kind, and no others
-  resume    // continue the work, bit for bit as without the interruption; FileError if the files are of other work
+  // continue the work, with the same bits as without an interruption; FileError if the files are of other work
+  resume
 };
 
 /// A kind of folder: the files that its command writes. Only these are ever removed.
 struct FolderKind {
-  std::string name;                    // in a sentence, e.g. "run"
-  std::vector<std::string> signs;      // files by which this kind is recognised
+  std::string name;                    // as in a sentence, for example "run"
+  std::vector<std::string> signs;      // files that identify this kind
   std::vector<std::string> files;      // all files except figures/, in the order in which they are removed
-  std::vector<std::string> figures{};  // the stems of the files in figures/
-  std::string resumes_from{};          // the file that is needed to resume; empty: this kind cannot be resumed
+  std::vector<std::string> figures{};  // stems of the files in figures/
+  std::string resumes_from{};          // file that is needed to resume; empty: this kind cannot be resumed
 };
 
 /// run.h5, trajectory.csv, summary.json, checkpoint.bin and figures/.
@@ -45,13 +46,13 @@ class WorkFolder {
   WorkFolder(WorkFolder&& other) noexcept;
   WorkFolder& operator=(WorkFolder&&) = delete;
 
-  /// Whether the work in it is resumed: Existing::resume was given and the file to resume from exists.
+  /// Whether work is resumed: Existing::resume was given and the file to resume from exists.
   bool resumes() const { return resumes_; }
-  /// A note for the user; empty: none.
+  /// A note for the user; empty: there is none.
   const std::string& note() const { return note_; }
 
   /// Makes the folder if it does not exist, and removes the files that are replaced. Does nothing if work is resumed.
-  /// @throws FileError if it cannot be made or emptied, or another process has made it meanwhile
+  /// @throws FileError if it cannot be made or emptied, or another process has made it in the meantime
   void prepare();
   /// The same for the work of a scenario.
   /// @throws Rejection if the file with the initial particles is one of the files that would be removed
@@ -59,7 +60,7 @@ class WorkFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
-  /// Writes a whole text file; if that fails, the old file is kept. @throws FileError
+  /// Writes a text file as a whole; if that fails, the old file is kept. @throws FileError
   void write(const std::filesystem::path& name, const std::string& text) const;
   void remove(const std::filesystem::path& name) const;
   /// Makes the subfolder figures/ and returns its path. @throws FileError
@@ -78,7 +79,7 @@ class WorkFolder {
   int descriptor_ = -1;
 };
 
-/// Writes a whole text file; if that fails, the old file is kept. @throws FileError
+/// Writes a text file as a whole; if that fails, the old file is kept. @throws FileError
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace hamflow

@@ -49,7 +49,8 @@ Page page(const Figure& figure) {
     }
     if (panel.series.empty()) continue;
     panel.y = fit_axis(range, padding, {5});
-    if (name == "iterations" && panel.y.exponent == 0) panel.y.step = std::max(panel.y.step, 1.0);  // no halves
+    // iterations are whole numbers
+    if (name == "iterations" && panel.y.exponent == 0) panel.y.step = std::max(panel.y.step, 1.0);
     panel.y_label = label;
     all.panels.push_back(panel);
   }

@@ -1,4 +1,4 @@
-// H over time.
+// Energy H over time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string obstacle(const FigureData& data) {
   return finite_points(data.t, data.energy).x.empty() ? no_samples("energy") : "";
 }
 
-/// "max |H - H0|/|H0| = 1.2e-9".
+/// Returns a text such as "max |H - H0|/|H0| = 1.2e-9".
 std::string worst_error(const FigureData& data) {
   double worst = 0;
   for (const double e : relative_energy_error(data)) {
@@ -40,8 +40,8 @@ Page page(const Figure& figure) {
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
     add_over_time(panel, figure.runs[run].t, figure.runs[run].energy, series_of(figure, run));
   }
-  // Below a thousandth of the scale the labels would differ in their last digits only: then the energy is shown as the
-  // constant it is, and its error stands beside it as a number.
+  // If the range is below a thousandth of the scale, labels would only differ in their last digits. Then the axis shows
+  // the energy as constant, and a note gives its error.
   if (range.high / scale - range.low / scale < 1e-3) {
     const double start = start_of(figure.runs.front().energy);
     if (std::isfinite(start) && figure.runs.size() == 1) panel.note = worst_error(figure.runs.front());

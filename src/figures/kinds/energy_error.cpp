@@ -1,4 +1,4 @@
-// (H - H0)/scale over time; its size on a logarithmic axis where it spans powers of ten.
+// (H - H0)/scale over time. If the error spans powers of ten, its size is drawn on a logarithmic axis.
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +19,8 @@ double largest(const std::vector<double>& error) {
   return range.largest();
 }
 
-/// Where one linear axis would show some of it as 0: runs of different precision, or an error that grows over powers of
-/// ten.
+/// Returns whether a linear axis would show some of the data as 0: runs of different precision, or an error that grows
+/// over powers of ten.
 bool is_logarithmic(const std::vector<std::vector<double>>& errors) {
   constexpr double far = 100;
   Extent of_runs;
@@ -37,8 +37,8 @@ bool has_range(const FigureData& data) {
   return !data.least_difference.empty() && data.least_difference.size() == data.largest_difference.size();
 }
 
-/// The range of the relative error over the steps on both sides of a sample: a stretch between two samples may be half
-/// a period, and every second one then the quiet half.
+/// Range of the relative error over the steps on both sides of a sample. One side alone may cover only half a period,
+/// so that every second sample would show the half with small errors.
 struct Range {
   double low = 0;
   double high = 0;
@@ -50,7 +50,7 @@ Range range_at(const FigureData& data, std::size_t k) {
           std::max(data.largest_difference[k], data.largest_difference[next]) / scale};
 }
 
-/// The size of the error at each sample, where it is known the largest of the steps beside it.
+/// Returns the size of the error at each sample: the largest over the neighbouring steps, if it is known.
 std::vector<double> sizes_of(const FigureData& data) {
   std::vector<double> all = relative_energy_error(data);
   for (std::size_t k = 0; k < all.size() && has_range(data); ++k) {
@@ -60,7 +60,7 @@ std::vector<double> sizes_of(const FigureData& data) {
   return all;
 }
 
-/// The field between the least and the largest error: samples alone may beat with the motion between them.
+/// Draws the area between the smallest and largest error, because samples alone may beat with the motion in between.
 void add_range(Panel& panel, const FigureData& data, Series how) {
   constexpr std::size_t page_columns = 400;
   Band band;
@@ -87,7 +87,7 @@ void add_range(Panel& panel, const FigureData& data, Series how) {
   panel.series.push_back(how);
 }
 
-/// The sizes; of many samples the largest in each column of the page.
+/// Draws the sizes; if there are many samples, the largest in each column of the page.
 Series sizes(const std::vector<double>& t, const std::vector<double>& error, Series how) {
   constexpr std::size_t page_columns = 400;
   how.ink = Ink::line;
@@ -115,8 +115,8 @@ std::string label_of(const Figure& figure, bool logarithmic) {
          (divisor.empty() ? "" : "/" + divisor);
 }
 
-/// A zero between two signs must not decide the axis: below a tenth of what all but a twentieth of the sizes reach, a
-/// line may leave the box.
+/// A zero crossing of the error must not determine the axis. Therefore a line may leave the box below a tenth of the 5
+/// % quantile of the sizes.
 void fit_logarithmic(Panel& panel) {
   Extent range;
   for (const Series& series : panel.series) {

@@ -1,5 +1,5 @@
-// The path in the plane of the two coordinates, with the exact one where it is known; the paths of bodies in space, in
-// the planes of its axes.
+// Path in the plane of the two coordinates, with the exact orbit if it is known; paths of bodies in space, in the
+// planes of its axes.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ std::string apart(const Figure& figure) {
   return plane ? "" : same_coordinates(figure);
 }
 
-/// Directions of space, or the two coordinates.
+/// Returns the axes of space, or the two coordinates.
 std::vector<std::string> columns(const FigureData& data) {
   if (data.space >= 2) return axes_of_space(data.space);
   return is_polar(data) ? std::vector<std::string>{"x", "y"} : data.coordinates;
@@ -60,7 +60,8 @@ bool is_flat(const FigureData& data, std::size_t axis) {
   return true;
 }
 
-/// Those that are asked for; else all of space, but that of the first two axes alone where nothing leaves it.
+/// Returns the chosen planes. By default these are all planes of space, or only that of the first two axes if the
+/// motion stays in it.
 std::vector<Plane> planes(const Figure& figure) {
   const FigureData& data = figure.runs.front();
   const bool in_plane = data.space == 3 && std::all_of(figure.runs.begin(), figure.runs.end(),
@@ -79,7 +80,7 @@ Curve in_plane(const FigureData& data, const FigureSamples& samples, std::size_t
   return finite_points(samples.q[first + plane.first], samples.q[first + plane.second]);
 }
 
-/// Of a start alone the exact curve is a point.
+/// The exact curve of a single sample is a point, and is not drawn.
 bool has_exact(const FigureData& data) {
   Extent x;
   Extent y;
@@ -88,7 +89,7 @@ bool has_exact(const FigureData& data) {
   return x.low < x.high || y.low < y.high;
 }
 
-/// Those of each direction of space, of everything that planes of it draw.
+/// Extent in each direction of space, over everything that is drawn.
 using Extents = std::vector<Extent>;
 
 Panel panel_of(const Figure& figure, Plane plane, bool with_names, const Extents& shared, Openings& opened) {
@@ -143,7 +144,7 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, const Extents
     tracks[0].curve = dots_on_line(tracks[0].curve, panel);
   }
   panel.series.insert(panel.series.end(), tracks.begin(), tracks.end());
-  for (const Series& track : tracks) {  // where a body is at the end: bodies may follow each other on one path
+  for (const Series& track : tracks) {  // marks where a body ends, because several bodies may follow the same path
     if (bodies(one) < 2 || track.curve.x.empty() || track.ink != Ink::path || opened.any) continue;
     panel.series.push_back({Ink::place, "", {{track.curve.x.back()}, {track.curve.y.back()}}, track.mark});
   }
@@ -157,8 +158,8 @@ Extent widened(const Extent& extent, double length) {
   return {middle - half, middle + half};
 }
 
-/// One range for each direction of space, the same in every plane; the horizontal ones are equally long, so that the
-/// planes have one scale.
+/// Returns one range for each direction of space, the same in every plane. The horizontal ranges have the same length,
+/// so that all planes have one scale.
 Extents shared_extents(const Figure& figure) {
   Extents all(3);
   for (const FigureData& run : figure.runs) {

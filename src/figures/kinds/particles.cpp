@@ -1,4 +1,4 @@
-// The positions of particles or bodies at the first and the last sample, or at chosen times, with their container.
+// Positions of particles or bodies at the first and the last sample, or at chosen times, with their container.
 #include "../particles.hpp"
 
 #include <algorithm>
@@ -27,13 +27,13 @@ Ink dot(std::size_t count) {
   return count <= 2000 ? Ink::dots : Ink::fine_dots;
 }
 
-/// @param ends extents over all samples that are drawn, for each axis: panels have one scale
+/// @param ends extents over all drawn samples, for each axis, so that all panels have one scale
 Panel panel_of(const FigureData& data, const std::vector<double>& positions, Plane plane,
                const std::vector<Extent>& ends, std::size_t sample) {
   const FigureParticles& of = data.particles;
   Panel panel;
   fit_equal_axes(panel, ends[plane.first], ends[plane.second]);
-  panel.x.step = plain_axis(panel.x.low, panel.x.high, {5, 18}).step;  // there may be three beside each other
+  panel.x.step = plain_axis(panel.x.low, panel.x.high, {5, 18}).step;  // up to three panels are next to each other
   const std::vector<std::string> names = axes_of_space(of.space);
   panel.x_label = in_unit(symbol(names[plane.first]), data.units.q) + ",  " + time_text(data.t[sample]) +
                   (data.units.t.empty() ? "" : " " + data.units.t);
@@ -82,7 +82,7 @@ Page page(const Figure& figure) {
     all.columns = planes.size() == 3 || shown.size() == 3 ? 3 : 2;
     all.width = two_columns;
   }
-  // One legend is enough.
+  // Only the first panel has a legend.
   for (std::size_t k = 1; k < all.panels.size(); ++k) {
     for (Series& series : all.panels[k].series) series.name.clear();
   }

@@ -1,5 +1,5 @@
-// Phase planes: each coordinate and its momentum, or the columns that are chosen, with the level curve of H where there
-// is one degree of freedom.
+// Phase planes: each coordinate and its momentum, or the chosen columns. With one degree of freedom the level curve of
+// H is drawn, too.
 #include <algorithm>
 #include <cmath>
 
@@ -48,20 +48,21 @@ Curve in_plane(const FigureData& data, const Plane& plane) {
 
 constexpr double turn = 2 * 3.14159265358979323846;
 
-/// The coordinate of a rotor that goes round often: an angle, whose turns lie on one another where it is folded.
+/// Returns whether the coordinate is an angle that makes many turns; then it is folded, so that turns lie on top of
+/// each other.
 bool goes_round_often(const FigureData& data, const Extent& x) {
-  constexpr double often = 4;  // turns, whose level curve can still be seen
+  constexpr double often = 4;  // turns; with fewer the level curve is readable without folding
   const bool is_angle = std::find(data.angles.begin(), data.angles.end(), data.coordinates[0]) != data.angles.end();
   return is_angle && x.high - x.low > often * turn;
 }
 
-/// Angles from -pi to pi.
+/// Folds angles to -pi .. pi.
 void fold(Curve& curve) {
   for (double& x : curve.x) x = std::remainder(x, turn);
 }
 
-/// Whether the curve has more waves across the panel than the tracer of level curves resolves: a coordinate that runs
-/// on through many periods of H.
+/// Returns whether a coordinate runs through so many periods of H that the level curve has more waves across the panel
+/// than the tracer resolves.
 bool waves_too_finely(const Curve& track) {
   constexpr int most = 40;
   int extrema = 0;
@@ -86,7 +87,7 @@ Curve opening_in_plane(const FigureData& data, const Plane& plane) {
   return in_plane(first_steps, plane);
 }
 
-/// The level curve of the start and the samples as dots on it.
+/// Draws the level curve through the start, and the samples as dots on it.
 void add_exact(Panel& panel, const FigureData& data, const Curve& track) {
   const auto raw = [](const Axis& axis) {
     const double unit_half = std::pow(10.0, axis.exponent / 2);
@@ -128,7 +129,7 @@ Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns,
   }
   const bool has_level_curve = whole && one.hamiltonian_1d && std::isfinite(start_of(one.energy));
   if (figure.runs.size() == 1 && has_level_curve && !waves_too_finely(tracks[0])) {
-    x.include(openings[0].x);  // few samples may miss most of the level curve
+    x.include(openings[0].x);  // a few samples may miss most of the level curve
     y.include(openings[0].y);
     fit();
     add_exact(panel, one, tracks[0]);

@@ -1,5 +1,5 @@
-// The pair distribution g(r): how many pairs are r apart, over how many would be if the same number of particles were
-// spread evenly over what holds them.
+// Pair distribution g(r): the number of pairs at distance r, divided by the number for the same particles spread evenly
+// over their volume.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,9 @@ namespace hamflow::figures {
 
 namespace radial {
 constexpr std::size_t bins = 150;
-constexpr std::size_t fewest_free = 16;     // of fewer that nothing holds, those at its border make the volume
-constexpr std::size_t most_taken = 200000;  // of the particles: pairs of a random part are as far apart as those of all
+constexpr std::size_t fewest_free = 16;  // with fewer free particles, those at the border determine the volume
+// particles used; pairs of a random part have the same distribution as all pairs
+constexpr std::size_t most_taken = 200000;
 
 bool are_finite(const std::vector<double>& q) {
   return std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });
@@ -22,7 +23,7 @@ bool are_finite(const std::vector<double>& q) {
 
 bool is_held(const FigureParticles& of) { return of.radius > 0 || !of.edges.empty(); }
 
-/// The distance between neighbours, were they spread evenly.
+/// Returns the distance of neighbours that are spread evenly.
 double neighbours(const FigureData& data, const Region& region) {
   return std::pow(region.volume() / static_cast<double>(data.particles.count), 1.0 / static_cast<double>(region.space));
 }
@@ -42,14 +43,15 @@ std::string obstacle(const FigureData& data) {
                                                       : "";
 }
 
-/// Some distances between neighbours: further away there is little to see, and pairs become many. In a periodic box no
-/// further than nearest images are unique, elsewhere no further than the shares of pairs are known.
+/// Returns a few distances of neighbours, because further away there is little to see and there are many pairs. In a
+/// periodic box the range ends where nearest images are no longer unique, elsewhere where the shares of pairs are no
+/// longer known.
 double range(const FigureData& data, const Region& region) {
   const double most = region.periodic ? region.shortest() / 2 : region.shortest();
   return std::min(most, 5 * neighbours(data, region));
 }
 
-/// The same for several samples: what nothing holds may grow.
+/// The same for several samples, because the volume of free particles may grow.
 double range(const FigureData& data, const std::vector<std::size_t>& samples) {
   double r_max = range(data, region_of(data.particles, data.particles.positions(samples.back())));
   for (std::size_t k = 0; !is_held(data.particles) && k + 1 < samples.size(); ++k) {
@@ -70,7 +72,7 @@ std::vector<double> those(const std::vector<std::size_t>& taken, const std::vect
   return part;
 }
 
-/// The mean over samples, as far as they have places within a volume.
+/// Averages over the samples that have finite positions within a volume.
 Curve distribution(const FigureData& data, const std::vector<std::size_t>& samples, double r_max) {
   std::vector<double> g(bins, 0);
   int used = 0;
@@ -96,7 +98,7 @@ Curve distribution(const FigureData& data, const std::vector<std::size_t>& sampl
   return curve;
 }
 
-/// The second half of a run, as much of it as takes a moment.
+/// Returns samples of the second half of a run, as many as can be evaluated in a moment.
 std::vector<std::size_t> later_samples(const FigureData& data) {
   constexpr std::size_t most_particles = 2000000;
   const std::size_t first = data.t.size() / 2;

@@ -1,4 +1,4 @@
-// The points of a Poincare section, in the plane of a coordinate and its momentum.
+// Points of a Poincare section, in the plane of a coordinate and its momentum.
 #include <algorithm>
 
 #include "../figure_kind.hpp"

@@ -1,4 +1,4 @@
-// Columns over time, or over another column: coordinates and momenta unless others are chosen.
+// Columns over time or over another column; by default coordinates and momenta.
 #include <algorithm>
 
 #include "../columns.hpp"
@@ -11,8 +11,8 @@
 namespace hamflow::figures {
 
 namespace time {
-constexpr std::size_t most_degrees = 100;  // whose coordinates and momenta all stand in one figure
-constexpr std::size_t most_named = 24;     // in one panel: colours and dashes repeat beyond
+constexpr std::size_t most_degrees = 100;  // all coordinates and momenta are drawn up to this number
+constexpr std::size_t most_named = 24;     // in one panel; with more, colours and dashes repeat
 
 std::string refused(const FigureFacts& facts) {
   if (facts.columns_chosen || facts.degrees_of_freedom <= most_degrees) return "";
@@ -22,7 +22,7 @@ std::string refused(const FigureFacts& facts) {
 }
 
 std::string obstacle(const FigureData& data) {
-  if (data.q.empty()) return "";  // of very many particles: columns are chosen
+  if (data.q.empty()) return "";  // very many particles have no q here, and columns are chosen
   for (const std::vector<double>& q : data.q) {
     if (!finite_points(data.t, q).x.empty()) return "";
   }
@@ -36,14 +36,15 @@ std::vector<std::string> wanted(const Figure& figure) {
   return names;
 }
 
-/// x of x1 and of x[1]: what numbered columns have in common.
+/// Returns the common part of numbered columns: x for x1 and for x[1].
 std::string family(const std::string& typed) {
   const std::string name = without_brackets(typed);
   const std::size_t end = name.find_last_not_of("0123456789");
   return end == std::string::npos ? name : name.substr(0, end + 1);
 }
 
-/// Columns that share an axis: of one sort, of bodies also of one direction of space; of several runs each alone.
+/// Groups columns that share an axis: columns of the same sort and, for bodies, of the same direction of space. With
+/// several runs each column has an axis of its own.
 std::vector<std::vector<Column>> shared_axes(const Figure& figure) {
   const FigureData& data = figure.runs.front();
   std::vector<std::vector<Column>> groups;
@@ -68,7 +69,7 @@ std::string label_of(const std::vector<Column>& group) {
   const bool numbered =
       std::all_of(group.begin(), group.end(), [&](const Column& column) { return family(column.name) == first; });
   if (group.size() > 3 && numbered) return symbol(first);
-  constexpr std::size_t longest = 24;  // characters beside a panel; the legend has all names
+  constexpr std::size_t longest = 24;  // characters that fit beside a panel; the legend has all names
   std::string all = joined(group, [](const Column& column) { return column.label; });
   if (printed_length(all) <= longest || group.size() < 3) return all;
   all = group.front().label + ", …, " + group.back().label;
@@ -80,7 +81,8 @@ void add(Panel& panel, const std::vector<double>& x, const std::vector<double>& 
   panel.series.push_back(track_of(finite_points(x, y), std::move(how)));
 }
 
-/// Part of the state, which no noise makes turn from sample to sample.
+/// Returns whether a column is part of the state. Such columns are smooth, so noise does not change their direction
+/// from sample to sample.
 bool moves(const Column& column) {
   return column.sort == Sort::position || column.sort == Sort::angle || column.sort == Sort::momentum ||
          column.sort == Sort::angular_momentum;

@@ -1,4 +1,4 @@
-// The paths of the particles of a gas, or of bodies, and where they end.
+// Paths of the particles of a gas, or of bodies, and their final positions.
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +14,9 @@ namespace hamflow::figures {
 
 namespace tracks {
 constexpr std::size_t most_tracks = 500;
-constexpr std::size_t most_samples = 400;  // of a path: as many as the size of a page can show
+constexpr std::size_t most_samples = 400;  // samples of a path; a page cannot show more
 
-/// @param paths of those that are drawn, coordinate by coordinate   @param sparse becomes true where chords lose one
+/// @param paths one for each drawn coordinate   @param sparse becomes true if chords do not follow a path
 Panel panel_of(const FigureData& data, const std::vector<std::vector<double>>& paths, Plane plane, bool& sparse) {
   const FigureParticles& of = data.particles;
   const std::vector<std::string> names = axes_of_space(of.space);

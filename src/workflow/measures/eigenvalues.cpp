@@ -38,11 +38,11 @@ class EigenvalueMeasure final : public Measure {
       all.pair_defect = found.pair_defect;
       all.symplectic_defect = found.symplectic_defect;
       all.norm = found.norm;
-    } catch (const Error& error) {  // the derivative of a chaotic orbit overflows in the end; the run itself is fine
+    } catch (const Error& error) {  // the derivative along a long chaotic orbit overflows; the run itself is fine
       all.message = error.what();
     }
   }
-  /// The numbers of a sweep; NaN if the eigenvalues cannot be computed.
+  /// Returns the numbers for a sweep; NaN if the eigenvalues cannot be computed.
   std::vector<double> row() const override {
     const std::size_t n = watch_.rows().size();
     try {
@@ -65,7 +65,7 @@ class EigenvalueMeasure final : public Measure {
   MonodromyWatch watch_;
 };
 
-/// Values in the order of the summary: partners next to each other.
+/// Returns the columns in the order of the summary: partners next to each other.
 std::vector<std::string> columns(const Scenario& first) {
   std::vector<std::string> all;
   for (std::size_t i = 1; i <= 2 * first.start_q.size(); ++i) {

@@ -1,4 +1,4 @@
-// run.events: finds zeros of expressions in the same way as points of a Poincare section. Events are counted and
+// run.events: locates zeros of expressions in the same way as points of a Poincare section. Events are counted and
 // recorded, and may end the run.
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ class EventsMeasure final : public Measure, public Observer {
     for (const auto& finder : finders_) (void)finder->observe(frame);
     return by_ ? Verdict::stop : Verdict::go_on;
   }
-  /// An event that ends the run may lie before the point at which the step fails. Other events are only searched in
+  /// An event that ends the run may occur before the point at which a step fails. Other events are only located in
   /// steps that succeeded.
   Verdict observe_failed_step() override {
     ++step_;
@@ -95,7 +95,7 @@ class EventsMeasure final : public Measure, public Observer {
   std::vector<std::unique_ptr<SectionFinder>> finders_;
   std::int64_t step_ = 0;
   double end_ = 0;                 // time at the end of the step
-  std::optional<std::size_t> by_;  // the event that ends the run: the first one within its step
+  std::optional<std::size_t> by_;  // event that ends the run, the first one within its step
   SectionPoint where_;
 };
 

@@ -1,4 +1,4 @@
-// run.lyapunov: Lyapunov exponents of the numerical map of the method, along the run; a sweep has a column for each.
+// run.lyapunov: Lyapunov exponents of the method's own steps along the run. A sweep has a column for each.
 #include "hamflow/detail/verify/lyapunov.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,8 @@ class LyapunovMeasure final : public Measure {
     all.renormalisations = found.renormalisations;
     if (!watch_.followed()) all.stopped_at_step = watch_.step();
   }
-  /// The numbers of a sweep; NaN if a step could not be differentiated, since a column cannot say at which step.
+  /// Returns the numbers for a sweep; NaN if a step could not be differentiated, because a column cannot say at which
+  /// step.
   std::vector<double> row() const override {
     std::vector<double> exponents = spectrum().exponents;
     if (!watch_.followed()) std::fill(exponents.begin(), exponents.end(), std::numeric_limits<double>::quiet_NaN());
@@ -57,7 +58,7 @@ class LyapunovMeasure final : public Measure {
   bool by_steps_;
 };
 
-/// The largest of some numbers, without sign.
+/// Returns the largest absolute value.
 double largest_of(const std::vector<double>& xs) {
   double largest = 0;
   for (const double x : xs) largest = std::max(largest, std::abs(x));

@@ -1,6 +1,6 @@
-// A **measured quantity**: it observes a run and adds its result to the summary and to a sweep. Each quantity is one
-// file of this folder: measures/lyapunov.cpp defines measure_lyapunov(), and the build finds it. The run, its
-// checkpoints, the summary and the sweep iterate over the list and name no quantity.
+// A **measured quantity** observes a run and adds its result to the summary and to a sweep. Each quantity is one file
+// of this folder: measures/lyapunov.cpp defines measure_lyapunov(), and the build finds it. The code for runs,
+// checkpoints, summaries and sweeps iterates over the list and does not name any quantity.
 #pragma once
 
 #include <memory>
@@ -28,30 +28,31 @@ class Measure {
   virtual ~Measure() = default;
   /// Called with the other observers of the run; its archive() is part of the checkpoints.
   virtual Observer& observer() = 0;
-  /// The observer, if it follows tangent vectors, which many members of a sweep compute together; else null.
+  /// Returns the observer if it carries tangent vectors, which many members of a sweep compute together; otherwise
+  /// null.
   virtual TangentWatch* tangents() { return nullptr; }
-  /// The observer, if it only needs sums over the steps, which SIMD lanes compute themselves; else null.
+  /// Returns the observer if it only needs sums over the steps, which SIMD lanes compute themselves; otherwise null.
   virtual SummedSteps* summing() { return nullptr; }
   /// Writes the results so far into its member of the summary, and adds the events that it counts.
   virtual void add_to(Summary& summary) const = 0;
-  /// Remarks about these counts.
+  /// Returns remarks on these counts.
   virtual std::vector<std::string> event_notes() const { return {}; }
-  /// Whether it ends the run at this step.
+  /// Returns whether it ends the run at this step.
   virtual bool stops() const { return false; }
-  /// The number of steps that were too long to be searched.
+  /// Returns the number of steps that were too long to be searched.
   virtual std::int64_t unseen_steps() const { return 0; }
-  /// The number of occurrences of each event, and the event that ended the run; only for events.
+  /// Return the number of occurrences of each event, and the event that ended the run; only for events.
   virtual std::vector<std::int64_t> event_counts() const { return {}; }
   virtual std::optional<MemberStop> stopped_by() const { return {}; }
-  /// The numbers of a finished member of a sweep, one for each column.
+  /// Returns the numbers of a finished member of a sweep, one for each column.
   virtual std::vector<double> row() const { return {}; }
 };
 
 struct MeasureKind {
-  std::string key;    // key in [run] and in the checkpoint
+  std::string key;    // its key in [run] and in the checkpoint
   std::string label;  // label of its line in the text of the summary
   bool (*requested)(const Scenario&);
-  /// Makes a measure that needs only step, time, q and p: for a run or a SIMD lane. The scenario outlives it.
+  /// Makes a measure that only needs step, time, q and p, for a run or a SIMD lane. The scenario outlives it.
   std::unique_ptr<Measure> (*make)(const Scenario&) = nullptr;
   /// Used in place of `make` if the measure needs the simulation.
   /// @param recorder receives the records other than samples; may be null
@@ -60,16 +61,16 @@ struct MeasureKind {
   void (*write)(JsonWriter&, Summary&);
   void (*read)(JsonReader&, Summary&);
   std::string (*text)(const Summary&);
-  /// The names of its columns in a sweep; null: a sweep records it in a separate table for each member.
+  /// Returns the names of its columns in a sweep; null: a sweep records it in a separate table for each member.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;
-  /// Whether it counts events in a sweep. Then make_of_run is used and members run one by one.
+  /// Whether it counts events in a sweep. If so, make_of_run is used, and members run one by one.
   bool counts_events = false;
 };
 
-/// Every kind, in the alphabetical order of its files.
+/// Returns every kind, in the alphabetical order of its files.
 std::span<const MeasureKind> measure_kinds();
 
-/// The map of one step of the scenario's method.
+/// Returns the map of one step of the scenario's method.
 StepMapSource step_map_of(const Scenario& scenario);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// The quantities that a scenario requests, during one run.
+// The quantities that a scenario requests, for one run.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// An observer, and the name of its archive in the checkpoint.
+/// An observer, with the name of its archive in the checkpoint.
 struct NamedObserver {
   std::string name;
   Observer* observer;
@@ -24,14 +24,14 @@ class Measures {
   void add_to(Summary& summary) const;
   /// Adds a warning if steps were too long to be searched.
   void add_warnings(std::vector<Warning>& warnings) const;
-  /// Whether one of them has ended the run.
+  /// Returns whether one of them has ended the run.
   bool stopped() const;
 
  private:
   std::vector<std::pair<const MeasureKind*, std::unique_ptr<Measure>>> requested_;
 };
 
-/// The columns in a sweep of all quantities that the scenario requests.
+/// Returns the columns in a sweep for all quantities that the scenario requests.
 MemberObservables sweep_columns(const Scenario& member);
 
 }  // namespace hamflow

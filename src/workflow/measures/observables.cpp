@@ -1,4 +1,4 @@
-// output.observables: expressions of the user, averaged over every step; a sweep has three columns for each.
+// output.observables: expressions of the user, averaged over every step. A sweep has three columns for each.
 #include <fmt/format.h>
 
 #include "hamflow/core/text.hpp"
@@ -27,7 +27,7 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
   Observer& observer() override { return *this; }
   std::int64_t next_due(std::int64_t step) const override { return step; }
   Verdict observe(const Frame& frame) override {
-    if (frame.step <= steps_) return Verdict::go_on;  // a resumed run shows its last state a second time
+    if (frame.step <= steps_) return Verdict::go_on;  // a resumed run observes its last state a second time
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       const double x = observables_[i].expression(frame);
       if (frame.step > 0) {
@@ -50,7 +50,7 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
   void archive(Writer& ar) override { fields(ar); }
   void archive(Reader& ar) override { fields(ar); }
 
-  /// {initial, mean, final} of each; without steps the mean is the initial value.
+  /// Returns {initial, mean, final} for each; without steps the mean is the initial value.
   std::vector<double> row() const override {
     std::vector<double> all;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
@@ -76,7 +76,7 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
   const std::vector<NamedExpression>& observables_;
   std::vector<Seen> seen_;
   std::vector<StepSum> sums_;
-  std::int64_t steps_ = -1;  // the last step that was observed
+  std::int64_t steps_ = -1;  // last observed step
 };
 
 std::vector<std::string> columns_of_observables(const Scenario& first) {

@@ -1,4 +1,4 @@
-// run.section: finds the points of a Poincare section and records them.
+// run.section: locates the points of a Poincare section and records them.
 #include <fmt/format.h>
 
 #include "measure.hpp"

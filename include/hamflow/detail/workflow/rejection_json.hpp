@@ -1,4 +1,4 @@
-// What `--json` prints in place of a summary.
+// JSON that `--json` prints in place of a summary.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace hamflow {
 
-/// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}; key: a path, or an option; message:
-/// what stands on stderr behind place and key.
+/// Returns {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}. `key` is a path or an option;
+/// `message` is what stderr shows after position and key.
 std::string rejection_json(const std::vector<Complaint>& complaints);
-/// {"status": "failed", "error": {kind, message}}
+/// Returns {"status": "failed", "error": {kind, message}}.
 std::string failure_json(const std::string& kind, const std::string& message);
 
 }  // namespace hamflow
