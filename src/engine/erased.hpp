@@ -93,7 +93,7 @@ struct ErasedEntry {
       simulate_member{};
 };
 
-/// action.template operator()<R>() with the number type of an arithmetic beyond double.
+/// Calls action.template operator()<R>() with the number type R of an arithmetic beyond double.
 template <class Action>
 auto in_arithmetic(const std::string& arithmetic, const Action& action) {
   if (arithmetic == "double-double") return action.template operator()<DoubleDouble>();
