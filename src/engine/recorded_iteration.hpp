@@ -196,8 +196,8 @@ S explained_change(const S& energy, const S& h, const Vector<S, dynamic>& q, con
   return S(128 * std::numeric_limits<double>::epsilon()) * S(abs(energy) + terms / S(16 * abs(h)));
 }
 
-/// The data for the next step. @param continues includes the first guess of the next step @return false if a number is
-/// not finite
+/// The data for the next step. @param continues includes the initial guess of the next step @return false if a number
+/// is not finite
 template <class E, class TA>
 bool record_finish(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
                    const std::vector<double>& values, const IterationTime& time, bool continues,

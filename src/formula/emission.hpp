@@ -1,11 +1,9 @@
 // **Operations from normal forms.** The order of operations rounds and costs as a person would write them:
 //   - Constants are multiplied with each other first, then once with the rest of a term. 1/m is a constant.
 //   - A term is its constant times functions and groups, divided by those in the denominator, then times its
-//   coordinates.
-//     The x and y components of a central force share k/(u sqrt u). Powers are products and square roots.
-//   - A sum of powers of one base is nested (Horner's scheme): x (alpha + x^2 beta). If all powers are negative and
-//   whole,
-//     it is a polynomial in 1/x^g: 12 (i6 i6 - i6)/x.
+//     coordinates. The x and y components of a central force share k/(u sqrt u). Powers are products and square roots.
+//   - A sum of powers of one base is nested (Horner's scheme): x (alpha + x^2 beta). If all its powers are negative
+//     and whole, it is a polynomial in 1/x^g: 12 (i6 i6 - i6)/x.
 //   - Other sums are added in the order in which they were typed. Terms of equal degree in the coordinates are added
 //     together, with common factors before them: q2 + lambda (q1^2 - q2^2).
 // With these rules the forces of many built-in problems have the bits of their hand-written functions;

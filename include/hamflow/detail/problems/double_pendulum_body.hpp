@@ -29,7 +29,7 @@ struct DoublePendulumBody {
         least_determinant(m[0] * l[0] * l[0] * c + R(4) * m[1] * l[0] * l[0] * theta[1] + theta[0] * c),
         w1((m[0] + R(2) * m[1]) * gravity * l[0]),
         w2(m[1] * gravity * l[1]) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit DoublePendulumBody(const DoublePendulumBody<Q>& other)
       : a(R(other.a)),
