@@ -20,7 +20,7 @@ double last_place(const std::string& number) {
 
 enum class Place { inside, outside, unclear };
 
-/// Where the interval value +- uncertainty lies.
+/// Returns the place of the interval value +- uncertainty.
 Place place_of(const Rule& rule, const Measured& measured) {
   const double low = measured.value - measured.uncertainty;
   const double high = measured.value + measured.uncertainty;

@@ -88,7 +88,7 @@ struct IterationTime {
 using IterationRecorder = std::function<std::optional<RecordedIteration>(
     const IterationFrame&, std::vector<double> values, int points, const IterationTime& time, IterationParts parts)>;
 
-/// What a simulation offers to lanes (src/engine/iterated_simulation.hpp).
+/// The interface of a simulation to lanes (src/engine/iterated_simulation.hpp).
 class IteratedMember {
  public:
   virtual ~IteratedMember() = default;

@@ -129,9 +129,9 @@ State<R> settled_on([[maybe_unused]] const P& problem, const State<R>& z) {
 }
 }  // namespace detail
 
-/// What a map has besides steps in double and long double. nothing: nothing in quad. quad: steps and flows in quad,
-/// which are compiled with the map. given: both, and the flow in long double, from functions that are compiled
-/// elsewhere.
+/// The functions of a map in addition to steps in double and long double. nothing: none. quad: steps and flows in quad,
+/// compiled with the map. given: steps and flows in quad, and the flow in long double, as functions that are compiled
+/// in other files.
 enum class Beyond { nothing, quad, given };
 /// The functions for Beyond::given.
 struct GivenMaps {

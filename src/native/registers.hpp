@@ -6,7 +6,7 @@
 
 namespace hamflow::native {
 
-/// Where a number is.
+/// The place of a number.
 struct Place {
   enum class Kind : std::uint8_t {
     none,

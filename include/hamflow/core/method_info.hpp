@@ -87,7 +87,7 @@ struct StepDiagnostics {
   }
 };
 
-/// What a method has computed since it was constructed.
+/// The work of a method since it was constructed.
 struct Effort {
   long long force = 0;          // evaluations of -dV/dq
   long long gradient = 0;       // evaluations of the whole gradient of H

@@ -106,7 +106,7 @@ struct ProblemEntry {
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The simulation behind virtual calls, for arithmetics beyond double and methods without a typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
-  /// The same in double from numbers, for the lanes of ensembles; uses only the method of the request.
+  /// The simulation in double, from numbers, for the lanes of ensembles. It uses only the method of the request.
   std::function<std::unique_ptr<Simulation>(const Request&, const Parameters<double>&, const std::vector<double>& q,
                                             const std::vector<double>& p, double h)>
       simulate_member;

@@ -268,7 +268,7 @@ auto simulate(const P& problem, const Method& recipe, const Vector<typename A::R
   return SimulationOf<P, M, A, Probe>(problem, recipe.template bind<P, A>(problem), q, p, h, arithmetic);
 }
 
-/// The same with a start in braces, whose numbers are counted at compile time; a vector would be filled up with zeros.
+/// As above, with a start in braces. Its numbers are counted at compile time; a vector would be filled up with zeros.
 template <bool Watch = true, class P, MethodRecipe Method, std::size_t of_q, std::size_t of_p,
           class A = DefaultArithmetic<P, Method>>
 requires(P::dimension != dynamic) auto simulate(const P& problem, const Method& recipe,

@@ -89,7 +89,7 @@ class NewtonProgress {
            (rate > Real(0.5) && size <= 64 * noise) || (stalls >= 2 && size <= Real(1 << 12) * noise);
   }
 
-  /// The same for corrections that decrease by a factor theta each time. After a correction c the omitted corrections
+  /// The test for corrections that decrease by a factor theta each time. After a correction c the omitted corrections
   /// sum to theta/(1 - theta) c, with the sign of c. To avoid a drift over many steps this sum must be below
   /// noise/16384, or corrections must no longer decrease, as in a cycle of a few roundings.
   /// [HairerMcLachlanRazakarivony2008] Corrections above the noise count as such a cycle only after twelve in a row
@@ -130,7 +130,7 @@ template <class Real>
 constexpr bool hidden_by_rounding(const Real& unit, const Real& unknown) {
   return unit > unknown / (1 << 20);
 }
-/// The same for numbers at a distance of `stride`, such as those of one lane.
+/// As above, for numbers at a distance of `stride`, such as those of one lane.
 inline bool hidden_by_rounding(const double* units, const double* unknowns, std::size_t count, std::size_t stride) {
   double unit = 0;
   double unknown = 0;

@@ -50,8 +50,8 @@ struct DoublePendulumBody {
             {"gravity", "9.81", "g"}};
   }
 
-  /// What is allowed instead if M is singular; else empty. det M > 0 for all positive masses and lengths, unless their
-  /// products leave the range of R.
+  /// Returns the allowed values if M is singular, else an empty text. det M > 0 for all positive masses and lengths,
+  /// unless their products leave the range of R.
   std::string allowed_instead() const {
     if (least_determinant > R(0) && isfinite(least_determinant)) return {};
     return "masses, half_lengths and inertias whose mass matrix is not singular to rounding";
