@@ -1,5 +1,5 @@
-// The implicit midpoint rule of SUNDIALS' ARKODE in steps of one length: Newton with the exact Jacobian and the dense
-// solver. Its tables do not have this rule in every release: it is made here.
+// The implicit midpoint rule in SUNDIALS' ARKODE, with fixed steps, Newton's method with the exact Jacobian, and the
+// dense solver. This file defines the table, because not every release of ARKODE has it.
 #include "peers.hpp"
 
 #if HAMFLOW_BENCH_ARKODE
@@ -44,7 +44,7 @@ int jacobian(double, N_Vector at, N_Vector, SUNMatrix out, void* parameters, N_V
   const double u = z[0] * z[0] + z[1] * z[1];
   const double s = kepler.k / (u * std::sqrt(u));
   const double c = -3 * s / u;
-  double* const* const column = SM_COLS_D(out);  // the others are zeros already
+  double* const* const column = SM_COLS_D(out);  // entries that are not set below are 0 already
   column[2][0] = column[3][1] = kepler.inverse_mass;
   column[0][2] = -s - c * z[0] * z[0];
   column[0][3] = column[1][2] = -c * z[0] * z[1];
@@ -52,14 +52,14 @@ int jacobian(double, N_Vector at, N_Vector, SUNMatrix out, void* parameters, N_V
   return 0;
 }
 
-/// Below it in its weighted norm Newton's corrections end.
+/// Newton's method ends if the correction is below this in ARKODE's weighted norm.
 constexpr double tolerance = 1e-13;
 
 void check(int status) {
   if (status < 0) throw std::runtime_error("arkode: status " + std::to_string(status));
 }
 
-/// Frees what ARKODE has made.
+/// Owns an object of ARKODE.
 template <class T>
 using Kept = std::unique_ptr<T, void (*)(T*)>;
 
@@ -106,8 +106,8 @@ Run run_midpoint(const Task& task, std::int64_t steps) {
 }  // namespace
 
 std::vector<Peer> arkode_peers() {
-  // What is left of Newton's iteration: a tenth of the tolerance in each step at the most, 1e-14/(4 epsilon) = 11
-  // bounds, and what its Jacobians of old leave.
+  // Newton's method leaves at most a tenth of the tolerance in each step, 1e-14/(4 epsilon) = 11 bounds, and an error
+  // from Jacobians of earlier iterations.
   return {{"arkode", "midpoint", "cg(1,1)", 2, 2000, run_midpoint}};
 }
 

@@ -1,6 +1,6 @@
-// N bodies in space: a heavy one and light ones on circles about it. The loop over bodies that typed code has, with
-// numbers of run-time size, beside the recorded step: six bodies are the outer solar system, ten still fit into the
-// first cache of instructions, thirty are near the longest step that is recorded.
+// N bodies in space: a heavy one, and light ones on circles about it. The typed method loops over bodies, whose number
+// is known at run time; by name, the step is recorded. Six bodies are like the outer solar system, the step of ten
+// bodies fits into the first-level instruction cache, and thirty are near the longest step that is recorded.
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/splitting.hpp"
@@ -63,7 +63,7 @@ Workload workload(std::size_t count, const std::string& method, const std::strin
     };
   };
   Workload w{std::to_string(count) + " bodies, " + method, h_text, {}, {}, {}};
-  // Light bodies on circles that are far apart: nearly Kepler orbits, and the bound of those.
+  // The circles of the light bodies are far apart, so they are almost Kepler orbits, for which the bound holds.
   w.bound = [=](std::int64_t steps) { return parting(h, 4 * static_cast<int>(count), steps); };
   w.contenders.push_back({"typed", [=](std::int64_t steps) { return typed.template operator()<false>(steps); }, {}});
   w.contenders.push_back(

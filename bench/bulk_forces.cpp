@@ -1,8 +1,8 @@
-// Forces of many particles at once beside loops by hand and, where it is installed, LAMMPS: a program of its own
-// (target bulk_bench). Processor time, medians of interleaved rounds, ratios within a round. W3, W4, W6, W10 are
-// workloads:
+// Compares forces of many particles with hand-written loops and, if it is installed, with LAMMPS. This is a separate
+// program (target bulk_bench). It measures processor time in interleaved rounds, and reports medians of ratios within a
+// round. The workloads:
 //   W3 Lennard-Jones, all pairs, in the plane;   W6 gravity, all pairs, in space;
-//   W4 the melt of LAMMPS' bench/in.lj, whole steps with lists;   W10 the same on threads, and for more particles.
+//   W4 the melt of LAMMPS' bench/in.lj, complete steps with lists;   W10 the melt on threads, and with more particles.
 #include "hamflow/core/bulk_forces.hpp"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ struct Racer {
   std::function<void()> run;
   std::vector<double> seconds{};
 };
-/// @param calls of a racer in a round; the first racers are those against which ratios are taken
+/// @param opponents the number of racers, from the first on, whose times ratios are divided by
+/// @param calls the calls of a racer in a round
 void race(const char* title, std::vector<Racer> racers, std::size_t opponents, int calls, double units) {
   for (int round = 0; round < 15; ++round) {
     for (std::size_t r = 0; r < racers.size(); ++r) {
@@ -53,7 +54,7 @@ void race(const char* title, std::vector<Racer> racers, std::size_t opponents, i
       racer.seconds.push_back((processor_seconds() - begin) / calls);
     }
   }
-  // Racers rotate, so that the k-th time of each was taken in the same round.
+  // The order rotates, but the k-th time of every racer is from the same round.
   std::printf("%s\n", title);
   for (const Racer& racer : racers) {
     std::printf("  %-16s %8.3f ns a pair", racer.name.c_str(), median(racer.seconds) / units * 1e9);
@@ -92,7 +93,7 @@ void all_pairs(const char* title, std::size_t per_side, BulkPairSystem::Law law)
     const std::string name = set == BulkSet::sse2 ? "sse2" : set == BulkSet::avx2 ? "avx2" : "avx512";
     racers.push_back({name, [&f, &q, bulk = BulkForces(s, set)] { bulk.force(q.data(), f.data()); }});
   }
-  // The loops and the library have to agree.
+  // Check that the loops and the library agree.
   plain_loop<Pair, Space>(swarm);
   BulkForces(s).force(q.data(), f.data());
   for (std::size_t i = 0; i < swarm.count; ++i) {
@@ -104,7 +105,8 @@ void all_pairs(const char* title, std::size_t per_side, BulkPairSystem::Law law)
   race(title, std::move(racers), opponents, static_cast<int>(2e6 / pairs) + 1, pairs);
 }
 
-/// The melt of in.lj: density 0.8442, cut-off 2.5, dt 0.005, from a lattice. Its skin is 0.3; no bit depends on it.
+/// The melt of in.lj: density 0.8442, cut-off 2.5, dt 0.005, starting on a lattice. in.lj has a skin of 0.3, which does
+/// not change a bit.
 struct Melt {
   std::size_t space;
   BulkPairSystem system{};
@@ -127,7 +129,7 @@ struct Melt {
         }
       }
     }
-    // Uniform momenta of the temperature 1.44.
+    // Uniformly distributed momenta with temperature 1.44.
     for (std::size_t i = 0; i < q.size(); ++i) p.push_back(std::sqrt(3 * 1.44) * uniform(random));
     f.resize(q.size());
     system.space = space;
@@ -149,9 +151,9 @@ struct Melt {
   }
 };
 
-/// Nanoseconds of processor time for an atom and step; 0: LAMMPS is not here.
-/// @param checked lists are made when an atom has gone half of the skin, as here; else every 20 steps, as in.lj wants
-/// it, whatever pairs have come within the cut-off meanwhile
+/// Returns nanoseconds of processor time per atom and step, or 0 if LAMMPS is not installed.
+/// @param checked whether LAMMPS makes lists when an atom has moved by half of the skin, as hamflow does. Otherwise it
+/// makes them every 20 steps, as in in.lj, and may miss pairs that come within the cut-off in between
 double lammps(std::size_t space, std::size_t cells, int steps, bool checked) {
   const std::string input =
       std::string(space == 3 ? "" : "dimension 2\n") + "units lj\natom_style atomic\nlattice " +
@@ -227,7 +229,7 @@ void threads_and_sizes(const std::vector<std::size_t>& sizes) {
     for (int round = 0; round < 5; ++round) {
       for (const std::size_t threads : {1u, 2u}) {
         bulk.use_threads(threads);
-        bulk.force(melt.q.data(), melt.f.data());  // its first list
+        bulk.force(melt.q.data(), melt.f.data());  // makes the first list
         const double begin = wall_seconds();
         melt.steps(bulk, steps);
         by[threads - 1].push_back((wall_seconds() - begin) / steps / static_cast<double>(melt.system.particles) * 1e9);
@@ -242,7 +244,7 @@ void threads_and_sizes(const std::vector<std::size_t>& sizes) {
 }  // namespace
 }  // namespace bench
 
-/// @param one of: pairs, melt, threads, large (a million atoms); without, the first three
+/// Arguments: any of pairs, melt, threads, large (a million atoms). Default: the first three.
 int main(int count, char** arguments) {
   using namespace bench;
   const std::string which = count > 1 ? arguments[1] : "";

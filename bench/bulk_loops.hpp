@@ -1,4 +1,5 @@
-// What people write by hand for all pairs: the plain loop, each pair once, and the same with vectors of eight or four.
+// Hand-written loops over all pairs: a plain loop that visits each pair once, and loops with vectors of eight or four
+// numbers.
 #pragma once
 
 #include <cmath>
@@ -7,7 +8,7 @@
 
 namespace bench {
 
-/// Positions and forces coordinate by coordinate.
+/// Positions and forces, with one array for each coordinate.
 struct Swarm {
   std::size_t space;
   std::size_t count;
@@ -15,7 +16,7 @@ struct Swarm {
   std::vector<double> f[3];
 };
 
-/// F = c(u) d of a pair: Lennard-Jones r^-12 - 2 r^-6, or -1/r.
+/// The factor c(u) of the force F = c(u) d of a pair, for the potentials r^-12 - 2 r^-6 (Lennard-Jones) and -1/r.
 struct LennardJonesPair {
   template <class V>
   static V c(const V& u) {
@@ -61,7 +62,7 @@ template <class Pair, std::size_t Space>
   }
 }
 
-/// The same with a row's partners in vectors of `width`.
+/// The loop over all pairs, with `width` partners of a particle in a vector.
 template <class Pair, std::size_t Space, std::size_t width>
 [[gnu::always_inline]] inline void vector_loop_of(Swarm& s) {
   typedef double V __attribute__((vector_size(width * sizeof(double))));
@@ -114,7 +115,7 @@ template <class Pair, std::size_t Space>
 [[gnu::noinline, gnu::target("avx2")]] void loop_avx2(Swarm& s) {
   vector_loop_of<Pair, Space, 4>(s);
 }
-// Clang takes whole registers of vectors that are written as such, and knows no such word.
+// Clang uses whole registers for such vectors anyway, and does not know this option.
 #if defined(__clang__)
 #define BENCH_AVX512 "avx512f,avx512dq"
 #else

@@ -1,6 +1,6 @@
-// What compensated summation costs: every contender against the same in plain double. A kick and a drift each gain one
-// addition on the chain from force to force (increment + low before high + that); the other five of the two-sum that
-// finds the error are beside it.
+// The cost of compensated summation: each contender is compared with the same in plain double. A kick and a drift each
+// add one addition to the chain from force to force: increment + low, before it is added to high. The other five
+// additions of the two-sum, which find the error, are not on the chain.
 #include "composition_loops.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
@@ -10,7 +10,7 @@ namespace bench {
 
 namespace {
 
-/// A number as high + low.   [Knuth1997, 4.2.2]
+/// A number high + low.   [Knuth1997, 4.2.2]
 struct Sum {
   double high, low = 0;
   void add(double r) {
@@ -57,7 +57,7 @@ Run run_compensated(const Task& task, const P& problem, const Recipe& recipe, st
   return run_block(simulation, steps);
 }
 
-/// One addition of an increment to low and one rounding less per action: the bound of plain arithmetic holds.
+/// The bound of plain arithmetic holds: each kick or drift has one more addition, to low, and one rounding less.
 template <const auto& weights, class Recipe>
 void add(Workload& w, const Task& task, const Recipe& recipe) {
   const auto put = [&](const std::string& plain, double goal, auto run, const std::string& bits_of) {

@@ -1,12 +1,12 @@
-// Hand-written loops for compositions of any length, as one writes them for many stages: the factors in two arrays, h,
-// mass and k in them, the loop over the stages unrolled.
+// Hand-written loops for compositions with many stages: two arrays contain the factors, already multiplied by h, mass
+// and k, and the loop over the stages is unrolled.
 #pragma once
 
 #include "plane.hpp"
 
 namespace bench {
 
-/// What the loop over the steps needs of the table.
+/// The factors of the kicks and drifts of one step.
 template <const auto& weights>
 struct Factors {
   static constexpr std::size_t stages = weights.size();
@@ -19,7 +19,7 @@ struct Factors {
   }
 };
 
-/// The operations of hamflow in their order, the last kick kept for the next step.
+/// The operations of hamflow in the same order. The last kick of a step is kept for the next one.
 template <const auto& weights>
 [[gnu::noinline]] void hand_table(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   const Factors<weights> factors(1 / mass, k, h);
@@ -37,8 +37,7 @@ template <const auto& weights>
   save(s, z);
 }
 
-/// A composition with the kicks at the end of one step and the beginning of the next joined, and mass, k and h in the
-/// coefficients.
+/// A composition that joins the last kick of a step with the first kick of the next one.
 template <const auto& weights>
 [[gnu::noinline]] void hand_folded(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   constexpr std::size_t stages = weights.size();
@@ -66,8 +65,8 @@ template <const auto& weights>
   save(s, z);
 }
 
-/// The chain of a kick-drift-kick step runs q -> F -> p -> q: |q|^2 (two operations), its root, u sqrt(u), the
-/// division, the increment of p, the kick and the drift (two); where two steps meet, two kicks follow each other.
+/// The longest chain of a kick-drift-kick step goes q -> F -> p -> q: |q|^2 (two operations), the square root, u
+/// sqrt(u), the division, the increment of p, the kick and the drift (two). Between two steps one more kick adds to it.
 constexpr Chain splitting_chain(int forces) { return {3 * forces + 1, 4 * forces, forces, forces}; }
 
 inline Workload begin(const Task& task, const std::string& method, int forces, const Chain& chain, HandLoop loop) {

@@ -1,4 +1,4 @@
-// What is compared: a workload (method and step length on one Kepler orbit) and the contenders that run it.
+// Workloads (a method and a step size on one Kepler orbit) and the contenders that run them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace bench {
 
-/// (q, p) in the plane.
+/// A state (q, p) in the plane.
 struct Orbit {
   hamflow::Vector<double, 2> q{};
   hamflow::Vector<double, 2> p{};
@@ -24,10 +24,10 @@ struct Task {
   double k = 1;
   Orbit start{};
   double h = 0;
-  std::string h_text;  // the same step length as a scenario gives it
+  std::string h_text;  // the step size as text, for scenarios
 };
 Task kepler_task(const std::string& h_text);
-/// The same with r = 0.4 .. 1.6 (e = 0.6, a = 1), unit mass and k, period 2 pi.
+/// The Kepler orbit with r = 0.4 .. 1.6 (e = 0.6, a = 1), mass = k = 1 and period 2 pi.
 Task unit_task(double h);
 
 /// One timed block of steps from the start of the task.
@@ -40,43 +40,43 @@ struct Run {
 struct Contender {
   std::string name;
   std::function<Run(std::int64_t steps)> run;
-  std::string against;    // the contender whose time divides this one's; empty: none
-  double goal = 0;        // the ratio wanted; 0: none, for information
-  bool same_bits = true;  // the end state has the bits of the first contender's; else it lies within the bound
-  double slack = 1;       // times the bound
-  std::string bits_of{};  // beside that: it ends in the bits of this contender
+  std::string against;    // ratios divide by the time of this contender; empty: no ratio
+  double goal = 0;        // the largest ratio that is allowed; 0: no goal
+  bool same_bits = true;  // whether the end state has to equal that of the first contender; else bound and slack apply
+  double slack = 1;       // multiplies the bound
+  std::string bits_of{};  // another contender whose end state has to have the same bits; empty: none
 };
 
-/// A method of another library, or of hamflow by type: any task, any number of steps.
+/// Runs a method of another library, or of hamflow by type, on any task for any number of steps.
 using Runner = std::function<Run(const Task&, std::int64_t steps)>;
 
-/// Contenders of one method at one step length; the first is the hand-written loop.
+/// The contenders for one method and step size. The first one is the hand-written loop.
 struct Workload {
   std::string method;
   std::string h_text;
-  Chain chain;  // of one step of the hand-written loop
+  Chain chain;  // the longest chain of one step of the hand-written loop
   std::vector<Contender> contenders;
-  /// How far two end states of contenders without the same arithmetic may lie apart after so many steps.
+  /// The largest allowed distance of end states after `steps` steps, if contenders round differently.
   std::function<double(std::int64_t steps)> bound;
 };
 
-/// A ratio of two contenders of different workloads, or against a peer, with the goal that it be at most so large.
+/// The ratio of two contenders of different workloads, or of a contender and another library, with a goal.
 struct Comparison {
   std::string method, contender;
   std::string peer_method, peer;
-  bool per_force = false;  // else per step
+  bool per_force = false;  // whether times are per force evaluation, else per step
   double goal = 1;
 };
 
 std::vector<Workload> explicit_workloads(const Task& task);
 std::vector<Workload> element_workloads(const Task& task);
-/// The method of order 8 with 17 stages, on this orbit and in the Henon-Heiles potential.
+/// The composition of order 8 with 17 stages, on this orbit and in the Henon-Heiles potential.
 std::vector<Workload> order_eight_workloads(const Task& task);
-/// N bodies of run-time size; of a task of their own.
+/// N bodies, with N known at run time. They have their own tasks.
 std::vector<Workload> body_workloads();
-/// Masses on crossed rails between walls.
+/// The T-tube: masses on crossed rails between walls.
 std::vector<Workload> tube_workloads();
-/// For stv4 and kahan-li8, after the plain contenders.
+/// Adds contenders with compensated sums, for stv4 and kahan-li8. Call this after the plain contenders were added.
 void add_compensated_contenders(Workload& workload, const Task& task);
 void add_lane_contenders(Workload& workload, const Task& task);
 

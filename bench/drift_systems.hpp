@@ -1,4 +1,4 @@
-// The systems on which the drift of cg's energy is measured, 32 starts of each, and the statistics of it.
+// The systems on which the drift of the energy of cg is measured, with 32 starts each, and its statistics.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline double between(double a, double b, std::uint64_t start, std::uint64_t wha
   return a + (b - a) * 0.5 * (1 + counter_uniform(17, 100 * start + what));
 }
 
-/// What the command line of both programs asks for: [steps [system [start]]].
+/// The arguments of both programs: [steps [system [start]]].
 struct Asked {
   long steps = 0;
   std::string system{};
@@ -58,7 +58,7 @@ PhasePoint<A, N> stored(const Begin& begin) {
   return z;
 }
 
-/// H from all the digits that are stored with compensation.
+/// H, with all digits of the compensated state.
 template <class P, class A, std::size_t N>
 Quad energy_of(const P& problem, const PhasePoint<A, N>& z) {
   Vector<Quad, N> q{};
@@ -83,14 +83,14 @@ inline Mean mean_of(const std::vector<double>& x) {
   return m;
 }
 
-/// Of the means of several starts.
+/// Statistics of the means of several starts.
 struct Summary {
   double mean = 0;
-  double error = 0;  // of the mean, from the errors of the starts
+  double error = 0;  // standard error of the mean, from the errors of the starts
   double error_of_one = 0;
-  double largest = 0;    // |mean| of one start
-  double squares = 0;    // mean of t^2, which is 1 where no start drifts; t is mean/error
-  double largest_t = 0;  // |t| of one start
+  double largest = 0;    // largest |mean| of a start
+  double squares = 0;    // mean of t^2 with t = mean/error; it is 1 if no start drifts
+  double largest_t = 0;  // largest |t| of a start
 
   explicit Summary(const std::vector<Mean>& starts_in) {
     const auto count = static_cast<double>(starts_in.size());
@@ -107,8 +107,8 @@ struct Summary {
   }
 };
 
-/// One system: `made<R>()` is the problem in numbers R, with the constants of double, `scale` |T| + |V| of a typical
-/// state, `start(s)` one of the 32.
+/// A system. `made<R>()` returns the problem with number type R and constants rounded to double. `scale` is |T| + |V|
+/// of a typical state. `start(s)` returns one of the 32 starts.
 struct PendulumStarts {
   static constexpr const char* name = "pendulum";
   static constexpr int points = 8;
@@ -117,8 +117,8 @@ struct PendulumStarts {
   static Pendulum<R> made() {
     return Pendulum<R>();
   }
-  /// The first is the one on which a drift was found; librations of every amplitude (in a rotation q and its roundings
-  /// grow). Beyond the 32 is one with long steps, on which the rounding of the residual showed.
+  /// Start 0 is the one on which a drift was found first. The others are librations of every amplitude; rotations are
+  /// left out, because q and its rounding grow. Start 32 has long steps, which showed the rounding of the residual.
   static Begin start(std::uint64_t s) {
     if (s == starts) return {{0.2}, {0.05}, 0.3};
     if (s == 0) return {{2.749591}, {0.1062}, 0.0575444};
@@ -134,7 +134,7 @@ struct KeplerStarts {
   static CentralForce<R, Kepler> made() {
     return {R(1), Kepler<R>(R(1))};
   }
-  /// The ellipse r = 1 .. 3, turned.
+  /// The ellipse r = 1 .. 3, rotated by a random angle.
   static Begin start(std::uint64_t s) {
     const double angle = s == 0 ? 0 : between(0, 2 * std::numbers::pi, s, 0);
     const double v = std::sqrt(1.5);
@@ -170,7 +170,7 @@ struct HenonHeilesStarts {
   }
 };
 
-/// With a gravity for which all constants of the problem are exact in double.
+/// The gravity is chosen so that all constants of the problem are exact in double.
 struct DoublePendulumStarts {
   static constexpr const char* name = "double-pendulum";
   static constexpr int points = 8;

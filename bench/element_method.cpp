@@ -1,6 +1,6 @@
-// cg(1,5). The hand-written loop eliminates p, has five Gauss points in constants, the exact tangent, Cramer's rule,
-// and the first guess, stopping rule and compensated sums of hamflow, all for this one problem. It comes in two forms:
-// point after point, as one writes it down, and with two points at a time in the lanes of a vector register.
+// cg(1,5). The hand-written loop is for this problem only. It eliminates p, has five constant Gauss points, the exact
+// Jacobian and Cramer's rule, and the initial guess, stopping rule and compensated sums of hamflow. There are two
+// forms: one point after the other, and two points at a time in a vector register.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,7 +24,7 @@ inline Two root(Two x) { return Two{std::sqrt(x[0]), std::sqrt(x[1])}; }
 inline double total(double x) { return x; }
 inline double total(Two x) { return x[0] + x[1]; }
 
-// Gauss-Legendre on [0, 1] as 1/2 + offset.
+// Gauss-Legendre points on [0, 1] are 1/2 + offset.
 constexpr double outer = 0.45308992296933199640, inner = 0.26923465505284154552;
 constexpr double b_outer = 0.11846344252809454376, b_inner = 0.23931433524968323402, b_middle = 0.28444444444444444444;
 
@@ -47,7 +47,7 @@ struct Pair {
   double x, y;
 };
 
-/// high + low <- high + low + r, the rounding error of high kept in low.
+/// Adds r to high + low. The rounding error of high is added to low.
 inline void add(double& high, double& low, double r) {
   const double increment = r + low;
   const double sum = high + increment;
@@ -56,7 +56,7 @@ inline void add(double& high, double& low, double r) {
   high = sum;
 }
 
-/// @return Newton iterations, negative if one of the steps did not converge
+/// @return the number of Newton iterations; negative if a step did not converge
 template <class T>
 [[gnu::noinline]] std::int64_t hand_cg(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   const double h_by_mass = h / mass, half = h / 2, tangent = h * h / (2 * mass);
@@ -85,7 +85,7 @@ template <class T>
       const Pair middle{q.x + 0.5 * d.x, q.y + 0.5 * d.y};
       T sx{}, sy{}, sxx{}, sxy{}, syy{};
       for (int l = 0; l < Points<T>::groups; ++l) {
-        // The square root comes last: what does not need it is ready when it arrives.
+        // Computations that do not need the square root are written before it, so that they run while it is computed.
         const T offset = Points<T>::offset[l], weight = Points<T>::weight[l], moment = weight * (0.5 + offset);
         const T x = middle.x + offset * d.x, y = middle.y + offset * d.y;
         const T xx = x * x, xy = x * y, yy = y * y;
@@ -111,8 +111,8 @@ template <class T>
       const double noise =
           epsilon * (std::max(std::fabs(target.x), std::fabs(target.y)) + std::max(std::fabs(d.x), std::fabs(d.y)));
       if (!(size <= std::numeric_limits<double>::max())) return -1;
-      // NewtonProgress of hamflow: the rate of decrease is size/previous, and rate^2 size what the next correction
-      // will come to.
+      // The stopping rule of hamflow's NewtonProgress: the rate is size/previous, and the next correction is estimated
+      // as rate^2 size.
       stalls = pass > 0 && size > 0.9 * previous ? stalls + 1 : 0;
       if (size <= noise || (pass > 0 && size * size * size <= noise / 16384 * (previous * previous)) ||
           (size > previous / 2 && size <= 64 * noise) || (stalls >= 2 && size <= (1 << 26) * noise)) {
@@ -132,9 +132,9 @@ template <class T>
   return iterations;
 }
 
-/// An iteration is a chain from d to d: the point (3 operations), the force with curvature (8), five sums, the tangent
-/// (2) and Cramer's rule (5). A step is two of them, both always needed here, and from the last correction the mean
-/// force (3), its extrapolation (3) and the next d (3).
+/// An iteration is a chain from d to d: the point (3 operations), the force with its derivative (8), five sums, the
+/// Jacobian (2) and Cramer's rule (5). A step has two iterations, which are always needed here, and after the last
+/// correction the mean force (3), its extrapolation (3) and the next d (3).
 constexpr Chain iteration{12, 9, 2, 1};
 constexpr Chain chain{2 * iteration.additions + 5, 2 * iteration.multiplications + 4, 2 * iteration.divisions,
                       2 * iteration.square_roots};
@@ -154,7 +154,7 @@ Run run_hand(const Task& task, std::int64_t steps) {
 
 namespace {
 
-/// One problem behind virtual calls, as by name, beside the template instantiated for it.
+/// Compares a method by name, on the problem behind virtual calls, with the template instantiated for the problem.
 template <class Recipe>
 Workload averages_workload(const std::string& method, const Task& task, const Recipe& recipe) {
   Workload w{method, task.h_text, {}, {}, [h = task.h](std::int64_t steps) { return parting(h, 4, steps); }};
@@ -175,7 +175,7 @@ std::vector<Workload> element_workloads(const Task& task) {
   add_library_contenders(w, task, hamflow::Cg{{.quadrature = 5}}, 1.2, false);
   w.bound = [h = task.h](std::int64_t steps) { return parting(h, 4, steps); };
 
-  // The implicit midpoint rule, which a peer has too.
+  // The implicit midpoint rule, for comparison with other libraries.
   Workload midpoint{"cg(1,1)", task.h_text, {}, {}, w.bound};
   add_typed(midpoint, task, hamflow::Cg{{.quadrature = 1}}, 0, true);
   midpoint.contenders.front().against.clear();

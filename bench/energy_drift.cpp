@@ -1,8 +1,8 @@
-// The drift of cg's energy a step, as a fraction of |T| + |V| at the start: over 32 starts of four problems, each way
-// to solve a step among them. Energies are of all the digits that are stored, in quad.
-//     energy_drift [steps [problem [start]]]      steps of each start, default 10^7; in 256 blocks, whose increments
-//     give the standard error of a start
-// A random walk of w a step hides all below w/sqrt(32 steps): 1e-22 takes 10^8 steps and hours.
+// Measures the drift of the energy of cg per step, divided by |T| + |V| at the start, over 32 starts of four problems.
+// The problems cover every way to solve a step. Energies are computed in quad with all digits of the state.
+//     energy_drift [steps [problem [start]]]      steps of each start, default 10^7
+// The standard error of a start comes from the changes over 256 blocks. A random walk of w per step hides drifts below
+// w/sqrt(32 steps), so a drift of 1e-22 takes 10^8 steps and hours.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
-// How the energy error of long Kepler runs grows: orbit means of H against the first one, rms over 16 starts, and the
-// exponent c in error ~ t^c. Brouwer's law is c = 1/2.   [HairerMcLachlanRazakarivony2008]
-//     energy_growth [orbits]      default 100000; the starts differ by a rotation of the plane, which changes every
-//     rounding
+// Measures how the energy error of long Kepler runs grows: the rms over 16 starts of means of H over an orbit, minus
+// the first one, and the exponent c in error ~ t^c. Brouwer's law is c = 1/2.   [HairerMcLachlanRazakarivony2008]
+//     energy_growth [orbits]      default 100000
+// The starts differ by a rotation of the plane, which changes every rounding.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +24,7 @@ using Problem = CentralForce<double, Kepler>;
 constexpr double eccentricity = 0.5;
 constexpr int starts = 16;
 
-/// H from all the digits that are stored.
+/// H, with all stored digits of the state.
 template <class S>
 long double energy_of(const S& state) {
   const auto value = [](const auto& x) {
@@ -41,8 +41,8 @@ long double energy_of(const S& state) {
   return (px * px + py * py) / 2 - 1 / std::sqrt(x * x + y * y);
 }
 
-/// The mean of H over one orbit at each of the given orbits, minus the first. The oscillation within an orbit, which is
-/// bounded and larger, cancels.
+/// Returns the mean of H over each of the given orbits, minus the mean over the first one. The mean removes the
+/// oscillation within an orbit, which is larger but bounded.
 template <class Recipe, class A>
 std::vector<long double> errors_of(int start, int steps_per_orbit, const std::vector<long>& orbits) {
   const double angle = 2 * 3.14159265358979323846 * (start + 0.37) / starts;

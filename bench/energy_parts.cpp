@@ -1,11 +1,11 @@
-// Which rounding makes the energy of cg drift: the mean of each part of a step's gain (step_parts.hpp), against its own
-// variance, over 32 starts of four systems. A part whose roundings are small next to those of the step, as the stopping
-// rule's, shows a mean that the energy itself would show in 10^10 steps.
+// Finds the rounding that makes the energy of cg drift. It compares the mean of each part of the energy change of a
+// step (step_parts.hpp) with its variance, over 32 starts of four systems. A part with small roundings, such as that of
+// the stopping rule, shows its mean early; the energy itself would show it only after 10^10 steps.
 //     energy_parts [steps [system [start]]]      steps of each start, default 10^6, in 128 blocks
-//     energy_parts check                         seconds: the test of this program, and of what it has found
-// Units: |T| + |V|, a step. "+-" is the error of the mean over all starts, from the blocks; t is mean/error, the
-// largest that of one start. Exits with 1 where the parts do not add up to the gain, which is taken from energies in
-// quad, or where watching a step changes it.
+//     energy_parts check                         tests this program and its findings; takes seconds
+// Means are per step, divided by |T| + |V|. "+-" is the standard error of the mean over all starts, from the blocks; t
+// is mean/error, and the largest t is that of a single start. The exit status is 1 if the parts do not add up to the
+// change of the energy in quad, or if observing a step changes it.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -19,13 +19,13 @@ using namespace hamflow;
 using namespace hamflow::drift;
 constexpr long blocks = 128;
 
-/// The means of the parts of a step, and of their sum.
+/// The means of the parts of a step and of their sum.
 struct Means {
   std::array<Mean, sources + 1> of{};
   bool right = true;
 };
 
-/// One start of a system, whose steps are taken apart.
+/// Integrates one start of a system, and splits its steps.
 template <class System, template <class, class> class Split>
 class Walk {
  public:
@@ -34,7 +34,7 @@ class Walk {
   static constexpr std::size_t n = P::dimension;
   using E = Observed<typename Split<P, Precise>::E>;
   using State = PhasePoint<A, n>;
-  using Sums = std::array<double, sources + 1>;  // of the parts, and of all
+  using Sums = std::array<double, sources + 1>;  // the parts, then their sum
 
   explicit Walk(std::uint64_t start) : begin_(System::start(start)), z_(stored<A, n>(begin_)) {}
 
@@ -68,14 +68,14 @@ class Walk {
  private:
   static constexpr CgOptions options{.quadrature = System::points};
 
-  /// Long double leaves 1e-20 of a step, at random.
+  /// Checks that the parts add up to the change of the energy. Long double leaves random errors of 1e-20 per step.
   void check_sum(double gained, double of_parts, long steps) {
     const double missed = (gained - of_parts) / System::scale;
     if (std::abs(missed) < 8e-20 * std::sqrt(static_cast<double>(steps))) return;
     std::printf("parts of %ld steps miss the gain %.3e by %.3e\n", steps, gained / System::scale, missed);
     right_ = false;
   }
-  /// The same bits with and without watching.
+  /// Checks that steps have the same bits when they are not observed.
   void check_unwatched(long steps) {
     ContinuousGalerkin<P, A> unwatched(problem_, options);
     ContinuousGalerkin<P, A, E> watched(problem_, options);
@@ -124,8 +124,9 @@ bool tables(const Asked& asked) {
   return table<DoublePendulumStarts, GeneralParts>(asked) && right;
 }
 
-/// What had a mean and has none any more. Before, the impulse of the pendulum was rounded with 1.5e-21, 7 errors of
-/// these steps, and the stopping rule left 1.8e-21 on this double pendulum, 18 errors.
+/// Checks that two sources of drift that were found and removed do not return. Rounding the increment of p of the
+/// pendulum had the mean 1.5e-21, which was 7 standard errors. The stopping rule had 1.8e-21 on this double pendulum,
+/// 18 standard errors.
 bool check() {
   bool right = tables(Asked(2 * blocks));
   const Mean rounded = Walk<PendulumStarts, NaturalParts>(starts).means(1'000'000).of[rounded_p];

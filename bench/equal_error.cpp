@@ -7,14 +7,14 @@ namespace bench {
 
 namespace {
 
-// A course of so many microseconds is not timed in every round.
+// A course that takes longer than this (microseconds) is timed only in the first `few_rounds` rounds.
 constexpr double long_course = 2e5;
 constexpr int few_rounds = 3;
 
 std::int64_t even(double steps) { return 2 * static_cast<std::int64_t>(std::ceil(steps / 2)); }
 
-/// The fewest steps, to a hundredth, even in number: the error goes as steps^-order once it is small, by which they are
-/// enclosed, and halved from there on. 0 steps: rounding is more than the target.
+/// Finds the smallest even number of steps that reaches the target, to 1 %. A bracket comes from error ~ steps^-order,
+/// which holds for small errors; bisection follows. It returns 0 steps if rounding errors exceed the target.
 Placed place(const Racer& racer, double target, const Course& course) {
   std::int64_t steps = course.first_steps;
   Placed placed{racer.name, 0, 0, 0, {}, {}};
@@ -55,13 +55,13 @@ std::vector<Race> race(const Plan& plan, const Course& course) {
     Race race{course.name, target, {}};
     std::vector<Racer> all;
     for (const Racer& racer : course.racers) {
-      if (racer.order < 4 && target < 1e-9) continue;  // 10^8 steps
+      if (racer.order < 4 && target < 1e-9) continue;  // they would need 10^8 steps
       const Placed placed = place(racer, target, course);
       if (placed.steps == 0) continue;
       race.placed.push_back(placed);
       all.push_back(racer);
     }
-    // Whole courses: Newton's iterations are not spread evenly over an orbit.
+    // A block has complete courses, because the number of Newton iterations varies along an orbit.
     std::vector<std::vector<double>> times(all.size());
     std::vector<std::int64_t> laps(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {

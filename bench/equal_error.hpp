@@ -1,16 +1,16 @@
-// What a given accuracy costs: for each method the fewest steps of one length with which a course of fixed length ends
-// within the target of where the motion ends, and the time of that.
+// Work at equal error: for each method, the smallest number of equal steps whose end state on a course (a trajectory of
+// fixed length) has an error below a target, and the time that they take.
 #pragma once
 
 #include "timing.hpp"
 
 namespace bench {
 
-/// A method on a course.
+/// A method that runs a course.
 struct Racer {
   std::string name;
   int order = 0;
-  /// The course so many times, each in so many steps. @return the time of all; `error` of the first
+  /// Runs the course `laps` times with `steps` steps each. A Lap has the time of all, and the error of the first.
   struct Lap {
     double nanoseconds = 0;
     double error = 0;
@@ -21,7 +21,7 @@ struct Racer {
 
 struct Course {
   std::string name;
-  std::vector<Racer> racers;  // ratios are to the first
+  std::vector<Racer> racers;  // ratios divide by the first one
   std::int64_t first_steps = 400;
   std::int64_t most_steps = 200'000'000;
 };
@@ -33,10 +33,10 @@ Course outer_planets();
 struct Placed {
   std::string name;
   std::int64_t steps = 0;
-  double error = 0;  // with them
+  double error = 0;  // the error with these steps
   double forces_per_step = 0;
   Spread us;
-  Spread ratio;  // to the first, within the rounds
+  Spread ratio;  // to the time of the first, taken within each round
 };
 
 struct Race {
@@ -45,7 +45,7 @@ struct Race {
   std::vector<Placed> placed;
 };
 
-/// For errors of 1e-6, 1e-9, 1e-12. Who cannot reach one within the most steps does not take part.
+/// Races for errors of 1e-6, 1e-9 and 1e-12. A method that needs more than the maximum number of steps is left out.
 std::vector<Race> race(const Plan& plan, const Course& course);
 
 }  // namespace bench

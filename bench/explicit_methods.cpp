@@ -1,6 +1,6 @@
-// The explicit methods. The hand-written loops do the operations of the method in the order of hamflow, so that all end
-// states must agree in every bit; only their parameters come at run time. The folded loops, for information, show what
-// algebra could still take off the chain of dependent operations at the price of other roundings.
+// The explicit methods. The hand-written loops have the operations of hamflow in the same order, so that all end states
+// have to agree in every bit. Only parameters are known at run time. The folded loops are for information. They show
+// how much algebra could shorten the chain of dependent operations, with other roundings.
 #include "composition_loops.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
@@ -104,7 +104,7 @@ namespace {
   save(s, z);
 }
 
-/// A splitting that begins with a drift, as a table has it: a drift, a kick, ..., perhaps a drift.
+/// A splitting that begins with a drift: a drift, a kick, ..., and perhaps a last drift.
 template <const auto& table>
 [[gnu::noinline]] void hand_drift_first(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   constexpr std::size_t count = table.size();
@@ -122,12 +122,13 @@ template <const auto& table>
   save(s, z);
 }
 
-/// One that begins with a drift; two drifts follow each other where steps meet unless it ends with a kick.
+/// The chain of such a splitting. Two drifts follow each other between steps, unless it ends with a kick.
 constexpr Chain drift_first_chain(std::size_t actions) {
   const int forces = static_cast<int>(actions / 2);
   return {3 * forces + (actions % 2 == 1 ? 1 : 0), 4 * forces, forces, forces};
 }
-/// Two of the four forces follow one another: F(q2) -> p3 -> q4 -> F(q4), and F(q1) -> p2 -> q3 -> F(q3) beside it.
+/// Only two of the four forces depend on each other: F(q2) -> p3 -> q4 -> F(q4), and in parallel F(q1) -> p2 -> q3 ->
+/// F(q3).
 constexpr Chain rk4_chain{6, 12, 2, 2};
 
 /// @param folded may be null
@@ -146,7 +147,7 @@ Workload workload(const Task& task, const std::string& method, int forces, const
   return w;
 }
 
-/// A method that only the peers and this program know by name: without "named" and "watched".
+/// A method that is not in the catalogue of hamflow, so that there is no "named" and no "watched".
 template <const auto& numbers, class Recipe>
 Workload drift_first(const Task& task, const std::string& method, const Recipe& recipe) {
   constexpr std::size_t actions = numbers.size();

@@ -1,6 +1,6 @@
-// The GNU Scientific Library, fixed steps by gsl_odeiv2_step_apply. Its rk4, rk2imp and rk4imp estimate their error by
-// doing each step twice, once whole and once in halves, and return the halves: a step of 2 h gives the state of two
-// steps of h. So it is called here, and that is how its steps are counted.
+// The GNU Scientific Library, with fixed steps by gsl_odeiv2_step_apply. Its rk4, rk2imp and rk4imp compute each step
+// twice, as one step and as two half steps, to estimate the error, and return the half steps. A call with 2 h therefore
+// counts as two steps of h.
 #include "peers.hpp"
 
 #if HAMFLOW_BENCH_GSL
@@ -62,7 +62,7 @@ int jacobian(double, const double z[], double* dfdz, double dfdt[], void* parame
   return GSL_SUCCESS;
 }
 
-/// Newton iterations of the implicit steppers end at this size of a correction; without effect on the others.
+/// The implicit steppers end Newton's method at this size of a correction. The others do not use it.
 constexpr double newton_tolerance = 1e-12;
 
 struct Free {
@@ -76,7 +76,7 @@ Runner runner(const gsl_odeiv2_step_type* type, bool halves) {
     gsl_odeiv2_system system{slope, jacobian, 4, &kepler};
     const double h = halves ? 2 * task.h : task.h;
     const std::int64_t calls = halves ? steps / 2 : steps;
-    // The implicit steppers take their tolerance from a driver, which is not used otherwise.
+    // The driver only sets the tolerance of the implicit steppers.
     const std::unique_ptr<gsl_odeiv2_driver, Free> driver(
         gsl_odeiv2_driver_alloc_y_new(&system, type, h, newton_tolerance, 0));
     double z[4] = {task.start.q[0], task.start.q[1], task.start.p[0], task.start.p[1]};
@@ -98,7 +98,7 @@ Runner runner(const gsl_odeiv2_step_type* type, bool halves) {
 }  // namespace
 
 std::vector<Peer> gsl_peers() {
-  // What is left of Newton's iteration, up to newton_tolerance in each step, is 1e-12/(4 epsilon) = 1100 bounds.
+  // Newton's method leaves up to newton_tolerance in each step, 1e-12/(4 epsilon) = 1100 bounds.
   return {{"gsl", "rk4", "rk4", 4, 2, runner(gsl_odeiv2_step_rk4, true)},
           {"gsl", "rk8pd", "", 8, 1, runner(gsl_odeiv2_step_rk8pd, false)},
           {"gsl", "rk2imp", "cg(1,1)", 2, 2000, runner(gsl_odeiv2_step_rk2imp, true)},

@@ -1,6 +1,7 @@
-// Ensembles: one trajectory in each SIMD lane, timed per trajectory and step against the hand-written scalar loop, by
-// name as `hamflow sweep` runs them. Lane 0 starts like the other contenders and must end in their state; the others
-// start a little faster and have masses of their own. "watched" looks at the energy in every step, as sweeps do.
+// Ensembles, by name as `hamflow sweep` runs them, with one trajectory in each SIMD lane. The time per trajectory and
+// step is compared with the hand-written scalar loop. Lane 0 starts like the other contenders and has to end in their
+// state; the other lanes have faster starts and other masses. "watched" computes the energy in every step, as sweeps
+// do.
 #include "hamflow/run/ensemble.hpp"
 #include "library.hpp"
 
@@ -24,7 +25,7 @@ Run run_lanes(const Task& task, const std::string& method, hamflow::LaneSet set,
   if (!block || !block->load({{"k", 1}, {"mass", 1}}, members) || block->lanes() != members.size()) {
     throw std::runtime_error("lanes refuse the members");
   }
-  block->advance(1);  // an ordinary step: blocks of a sweep have so many that it does not count
+  block->advance(1);  // the first step is not recorded; a sweep has so many steps that it does not matter
   Run run;
   run.nanoseconds = timed([&] { block->advance(steps - 1); }) / static_cast<double>(members.size());
   const hamflow::MemberEnd end = block->look(0);
@@ -47,7 +48,7 @@ void add_lane_contenders(Workload& workload, const Task& task) {
   };
   put("lanes, avx2", LaneSet::avx2, false, 0);
   if (widest < LaneSet::avx512) return;
-  // The goals are for AVX-512, stated for stv4.
+  // The goal is for stv4 with AVX-512.
   put("lanes", widest, false, is_stv4 ? 1.0 / 8 : 0);
   put("lanes, watched", widest, true, 0);
 }

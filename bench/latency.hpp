@@ -1,10 +1,11 @@
-// The limit of a loop whose every step needs the result of the one before: the latencies along the longest chain of
-// dependent operations, counted by hand, times the latencies of this machine, measured.
+// The lower limit for the time of a loop in which every step needs the result of the one before. It is the sum of the
+// latencies along the longest chain of dependent operations. The operations are counted by hand, the latencies
+// measured.
 #pragma once
 
 namespace bench {
 
-/// Operations that follow one another on the longest chain of one step.
+/// The operations on the longest chain of one step.
 struct Chain {
   int additions = 0;  // and subtractions
   int multiplications = 0;
@@ -12,7 +13,7 @@ struct Chain {
   int square_roots = 0;
 };
 
-/// Nanoseconds from operands to result, in double.
+/// Latencies in nanoseconds, in double.
 struct Latencies {
   double addition = 0;
   double multiplication = 0;

@@ -1,4 +1,4 @@
-// hamflow's contenders: the typed simulation, and the same by name as the command makes it.
+// The contenders of hamflow: the simulation by type, and by name as the command makes it.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace bench {
 
-/// Nanoseconds that f takes.
+/// Measures the nanoseconds that f takes.
 template <class F>
 double timed(F&& f) {
   const auto begin = std::chrono::steady_clock::now();
@@ -21,17 +21,16 @@ double timed(F&& f) {
   return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// How far two runs with other roundings may part on this orbit: a bound, not an estimate. A defect delta of the state
-/// moves the energy -1/4 by at most (|k/q^2| + |p/mass|) delta < 2 delta, with it the mean motion 1/4 by a relative
-/// 1.5 x 2 delta/(1/4) = 12 delta, and so, at a speed below 1, the state after a time t by at most 12 t delta, beside
-/// the defect itself (at most 10 times stretched along one turn). Summed over the steps, defects of `roundings` epsilon
-/// each.
+/// An upper bound for the distance of two runs on this orbit that round differently. An error delta of the state
+/// changes the energy -1/4 by at most (|k/q^2| + |p/mass|) delta < 2 delta, so the mean motion 1/4 by a relative 1.5 x
+/// 2 delta/(1/4) = 12 delta. The speed is below 1, so this moves the state by at most 12 t delta after a time t. The
+/// error itself grows at most by a factor 10 along one revolution. Each step adds an error of `roundings` epsilon.
 inline double parting(double h, int roundings, std::int64_t steps) {
   const auto count = static_cast<double>(steps);
   return roundings * std::numeric_limits<double>::epsilon() * (10 * count + 6 * h * count * count);
 }
 
-/// Times one block; the call is virtual for `hamflow::Simulation`, direct for the typed one.
+/// Times one block. The call is virtual for `hamflow::Simulation`, and direct for a typed simulation.
 template <class S>
 Run run_block(S& simulation, std::int64_t steps) {
   Run run;
@@ -45,7 +44,7 @@ Run run_block(S& simulation, std::int64_t steps) {
   return run;
 }
 
-/// The problem of a task.
+/// Returns the problem of a task.
 inline hamflow::CentralForce<double, hamflow::Kepler> kepler(const Task& task) {
   return {task.mass, hamflow::Kepler<double>(task.k)};
 }
@@ -56,8 +55,8 @@ Run run_typed(const Task& task, const Recipe& recipe, std::int64_t steps) {
   return run_block(simulation, steps);
 }
 
-/// A whole request. Recording and compiling, once in a run, is not timed; neither are the steps before it.
-/// @param until_recorded how many steps that takes
+/// Times steps of a request. The first steps, in which the step is recorded and compiled, are not timed.
+/// @param until_recorded the number of these steps
 inline Run run_recorded(const hamflow::Request& request, std::int64_t steps, std::int64_t until_recorded = 300) {
   const auto simulation = hamflow::make_simulation(request);
   const std::int64_t before = std::min(steps / 2, until_recorded);
@@ -67,7 +66,7 @@ inline Run run_recorded(const hamflow::Request& request, std::int64_t steps, std
   return run;
 }
 
-/// @param request problem and arithmetic
+/// Times a method by name.   @param request the problem and the arithmetic
 inline Run run_request(hamflow::Request request, const Task& task, const std::string& method, bool watch,
                        std::int64_t steps) {
   for (const double x : task.start.q) request.start.q.push_back(hamflow::shortest(x));
@@ -98,7 +97,7 @@ void add_typed(Workload& workload, const Task& task, const Recipe& recipe, doubl
       {"typed", [=](std::int64_t steps) { return run_typed(task, recipe, steps); }, "hand", goal, same_bits});
 }
 
-/// Appends typed, named and watched.
+/// Adds the contenders "typed", "named" and "watched".
 template <class Recipe>
 void add_library_contenders(Workload& workload, const Task& task, const Recipe& recipe, double typed_goal,
                             bool same_bits) {

@@ -1,4 +1,4 @@
-// hamflow_bench: hamflow beside hand-written loops, in one process. See README.md.
+// hamflow_bench compares hamflow with hand-written loops and other libraries in one process. See README.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,7 +22,7 @@ Task unit_task(double h) {
 
 namespace {
 
-/// Nothing is to be slower than a peer at the same method.
+/// The goal of these comparisons: hamflow is not slower than another library with the same method.
 std::vector<Comparison> comparisons() {
   std::vector<Comparison> all{{"euler-a", "typed", "euler-a", "odeint"},
                               {"verlet", "typed", "verlet", "odeint"},

@@ -1,5 +1,6 @@
-// McLachlan's symmetric Runge-Kutta-Nystroem splittings as Boost.Odeint has them, so that hamflow runs the same
-// methods: sb3a_m4 with four forces (Odeint computes a fifth and multiplies it by 0) and sb3a with five (Odeint: six).
+// McLachlan's symmetric Runge-Kutta-Nystroem splittings, with the coefficients of Boost.Odeint, so that both libraries
+// run the same methods: sb3a_m4 with four forces (Odeint computes a fifth and multiplies it by 0) and sb3a with five
+// (Odeint: six).
 // [McLachlan1995]
 #pragma once
 
@@ -9,7 +10,7 @@
 
 namespace bench {
 
-/// a1 = 1/2 - z, a2 = z - 1/3, z = sqrt(7/8)/3, in the order of action: drift, kick, ..., drift.
+/// a1 = 1/2 - z, a2 = z - 1/3, z = sqrt(7/8)/3. Entries are in the order of application: drift, kick, ..., drift.
 inline constexpr hamflow::SplittingTable sb3a_m4{
     .name = "sb3a_m4",
     .order = 4,

@@ -1,6 +1,6 @@
-// One hash for the melt of 32 768 particles, whatever the threads, the instruction set, the skin of its lists and how
-// often they are made: prints a line for each setting, and ends with 1 where two differ (target melt_bits; an argument:
-// steps [10000], some minutes a line).
+// Checks that the melt of 32 768 particles has the same bits for any number of threads, instruction set and skin, and
+// however often lists are made (target melt_bits). It prints the hash for each setting, and its exit status is 1 if two
+// differ. The argument is the number of steps, default 10000, which take some minutes for each setting.
 #include <algorithm>
 #include <bit>
 #include <chrono>
@@ -23,7 +23,7 @@ using hamflow::BulkSet;
 constexpr std::size_t per_side = 32;
 constexpr double spacing = 1.0579850391;  // density 0.8442
 
-/// As in examples/melt.toml, in the lengths of the potential.
+/// The system of examples/melt.toml, in the length unit of the potential.
 BulkPairSystem melt() {
   BulkPairSystem s;
   s.space = 3;
@@ -47,7 +47,7 @@ const char* name_of(BulkSet set) {
   return set == BulkSet::sse2 ? "sse2" : set == BulkSet::avx2 ? "avx2" : set == BulkSet::avx512 ? "avx512" : "best";
 }
 
-/// Steps of Verlet, their length 0.005.   @return a hash of positions, momenta and potential energy
+/// Integrates with Verlet, step size 0.005.   @return a hash of positions, momenta and potential energy
 std::uint64_t hash_of(const Settings& settings, int steps) {
   BulkPairSystem system = melt();
   system.skin = settings.skin;

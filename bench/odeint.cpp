@@ -1,4 +1,5 @@
-// Boost.Odeint as its documentation has it: states of std::array, systems as function objects that the compiler sees.
+// Boost.Odeint as its documentation shows it: states are std::array, and systems are function objects that the compiler
+// can inline.
 #include "peers.hpp"
 
 #if HAMFLOW_BENCH_ODEINT
@@ -28,7 +29,7 @@ inline double slope_at(double x, double y, double k) {
   return k / (u * std::sqrt(u));
 }
 
-/// q and p apart, H = T + V.
+/// Steppers with separate q and p, for H = T + V.
 template <class Stepper>
 [[gnu::noinline]] void march_separable(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   const double inverse_mass = 1 / mass;
@@ -46,7 +47,7 @@ template <class Stepper>
   z = {{state.first[0], state.first[1]}, {state.second[0], state.second[1]}};
 }
 
-/// q'' = a(q): velocities instead of momenta, the mass in the strength.
+/// The stepper for q'' = a(q). It uses velocities instead of momenta, so `strength` contains the mass.
 [[gnu::noinline]] void march_verlet(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   const double strength = k / mass;
   const auto acceleration = [strength](const Two& q, const Two&, Two& a, double) {
@@ -89,7 +90,8 @@ std::vector<Peer> odeint_peers() {
   using Euler = odeint::symplectic_euler<Two>;
   using M4 = odeint::symplectic_rkn_sb3a_m4_mclachlan<Two>;
   using Sb3a = odeint::symplectic_rkn_sb3a_mclachlan<Two>;
-  // Other roundings, and coefficients that may be one unit off: twice the bound. Forces are those that it evaluates.
+  // Roundings differ, and coefficients may differ in the last bit, so the bound is doubled. Forces are counted as
+  // Odeint evaluates them.
   return {{"odeint", "symplectic_euler", "euler-a", 1, 2, runner(march_separable<Euler>, 1)},
           {"odeint", "velocity_verlet", "verlet", 2, 2, runner(march_verlet, 1)},
           {"odeint", "sb3a_m4_mclachlan", "sb3a_m4", 4, 2, runner(march_separable<M4>, 5)},

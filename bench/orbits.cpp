@@ -1,6 +1,5 @@
-// Nanoseconds a body: orbital elements, Kepler drifts, states of elements. The best of many rounds over 512 bodies,
-// which are different, so that no branch is always the same.
-//     orbit_bench
+// Measures nanoseconds per body of orbital elements from states, Kepler drifts, and states from elements (orbit_bench).
+// It takes the best of many rounds over 512 different bodies, so that branches vary.
 #include <chrono>
 #include <cstdio>
 #include <vector>
@@ -20,7 +19,7 @@ constexpr std::size_t bodies = 512;
 template <class F>
 void report(const char* name, F&& of_body) {
   double best = 1e300;
-  double sum = 0;  // printed, so that nothing is left out
+  double sum = 0;  // printed, so that the compiler cannot remove the computations
   for (int round = 0; round < 400; ++round) {
     const auto begin = Clock::now();
     for (std::size_t k = 0; k < bodies; ++k) sum += of_body(k);

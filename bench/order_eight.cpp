@@ -1,5 +1,5 @@
-// Seventeen stages, order 8: Kahan's and Li's composition on the Kepler orbit and in the Henon-Heiles potential, where
-// a force is so cheap that all that is not force shows.
+// Kahan's and Li's composition of order 8 with 17 stages, on the Kepler orbit and in the Henon-Heiles potential. There
+// a force is so cheap that the cost of everything else is visible.
 #include "composition_loops.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/splitting.hpp"
@@ -23,7 +23,7 @@ struct Well {
   }
 };
 
-/// The operations of hamflow in their order.
+/// The operations of hamflow in the same order.
 template <const auto& weights>
 [[gnu::noinline]] void hand_well(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   const Factors<weights> factors(1 / mass, 1, h);
@@ -42,7 +42,7 @@ template <const auto& weights>
   save(s, z);
 }
 
-/// Kicks of neighbouring steps joined, the loop over the stages as it stands in a text book.
+/// Joins the kicks of neighbouring steps. The loop over the stages is as in a textbook.
 template <const auto& weights>
 [[gnu::noinline]] void hand_well_folded(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   Factors<weights> factors(1 / mass, 1, h);
@@ -64,7 +64,7 @@ template <const auto& weights>
   save(s, z);
 }
 
-/// Regular motion at H = 0.01, a sixteenth of the saddle's energy.
+/// A regular motion at H = 0.01, a sixteenth of the energy of the saddle.
 Task well_task(const Task& like) {
   Task task = like;
   task.mass = task.k = 1;
@@ -75,10 +75,11 @@ Task well_task(const Task& like) {
 template <class Recipe>
 Workload well_workload(const Task& task, int forces, const Recipe& recipe) {
   const std::string method = "kahan-li8";
-  // q2 -> q2^2 -> q1^2 - q2^2 -> times lambda -> F2 -> the increment of p2 -> p2 -> the increment of q2 -> q2.
+  // The longest chain: q2 -> q2^2 -> q1^2 - q2^2 -> times lambda -> F2 -> increment of p2 -> p2 -> increment of q2 ->
+  // q2.
   Workload w = begin(task, "henon-heiles", forces, {4 * forces + 1, 4 * forces, 0, 0}, hand_well<kahan_li8_weights>);
-  // The bound of the Kepler orbit serves here, too: defects move actions by at most their size times 0.2, frequencies
-  // by less than that (1 + O(E) with coefficients below 1), and the motion is regular.
+  // The bound of the Kepler orbit holds here, too: the motion is regular, an error changes actions by at most 0.2 times
+  // its size, and frequencies, which are 1 + O(E) with coefficients below 1, by less.
   w.contenders.push_back(
       {"hand, folded",
        [=](std::int64_t steps) { return run_hand(task, hand_well_folded<kahan_li8_weights>, forces, steps); }, "hand",

@@ -1,4 +1,5 @@
-// Other libraries on the same orbits. Each is optional: without it (as bench/CMakeLists.txt reports) its list is empty.
+// Other libraries on the same orbits. Each library is optional. If it is missing, bench/CMakeLists.txt reports it, and
+// its list is empty.
 #pragma once
 
 #include "contender.hpp"
@@ -7,22 +8,22 @@ namespace bench {
 
 struct Peer {
   std::string library;  // "odeint", "gsl", "arkode"
-  std::string stepper;  // its name there
-  std::string method;   // ours, when it is the same map
+  std::string stepper;  // the name of the method in that library
+  std::string method;   // the method of hamflow that is the same map; empty: none
   int order = 0;
-  double slack = 1;  // its end state may lie so many bounds away
+  double slack = 1;  // the factor of the bound for its end state
   Runner run;
 };
 
 std::vector<Peer> odeint_peers();
 std::vector<Peer> gsl_peers();
 std::vector<Peer> arkode_peers();
-/// Their versions, or that they are missing.
+/// The versions of the libraries, or "missing".
 std::string odeint_version();
 std::string gsl_version();
 std::string arkode_version();
 
-/// Appends the peers that do the same method.
+/// Adds the steppers of other libraries that are the same method.
 void add_peers(Workload& workload, const Task& task);
 
 }  // namespace bench

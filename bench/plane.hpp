@@ -1,4 +1,4 @@
-// What the hand-written loops share: the state in locals, the actions, and the weights of the compositions.
+// Parts of the hand-written loops: the state in local variables, kicks and drifts, and weights of compositions.
 #pragma once
 
 #include <array>
@@ -36,19 +36,19 @@ inline constexpr std::array<double, 17> kahan_li8_weights = [] {
   return all;
 }();
 
-/// The factor of the kick after drift j, where the kicks of neighbouring Verlet steps are one.
+/// The factor of the kick after drift j, which joins the kicks of two neighbouring Verlet steps.
 template <const auto& weights>
 constexpr double kick_weight(std::size_t j) {
   return j + 1 < weights.size() ? (weights[j] + weights[j + 1]) / 2 : weights[j] / 2;
 }
 
-/// The state and the last kick of a hand-written loop, in locals of the loop's function.
+/// The state and the last kick, as local variables of a hand-written loop.
 struct Plane {
   double x, y, px, py;
   double kick_x = 0, kick_y = 0;  // V'(q) times the factor of the kick
 };
 
-/// @param strength factor of the kick times k
+/// Computes the kick.   @param strength the factor of the kick times k
 inline void find_kick(Plane& s, double strength) {
   const double u = s.x * s.x + s.y * s.y;
   const double slope = strength / (u * std::sqrt(u));
@@ -59,7 +59,7 @@ inline void kick(Plane& s) {
   s.px -= s.kick_x;
   s.py -= s.kick_y;
 }
-/// @param d factor of the drift times 1/mass
+/// @param d the factor of the drift times 1/mass
 inline void drift(Plane& s, double d) {
   s.x += d * s.px;
   s.y += d * s.py;

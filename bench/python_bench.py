@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the Python module costs beside C++, as ratios within rounds: median, and quartiles in brackets.
+"""Compares the Python module with C++: ratios within rounds, as median with quartiles in brackets.
 
     PYTHONPATH=build/release/python HAMFLOW=build/release/hamflow python3 bench/python_bench.py [--rounds N] [--only NAME]
 
@@ -35,7 +35,7 @@ def seconds(call):
 
 
 def paired(rounds, one, other):
-    """Seconds of both in each round; which is first changes from round to round."""
+    """Times both functions in each round. Their order alternates from round to round."""
     found = []
     for k in range(rounds):
         taken = [None, None]
@@ -47,7 +47,7 @@ def paired(rounds, one, other):
 
 def simulation():
     sim = hf.Simulation(KEPLER, method="stv4", dt=0.01)
-    sim.advance(10_000)  # the steps in which it is recorded and compiled
+    sim.advance(10_000)  # in these steps the step is recorded and compiled
     return sim
 
 
@@ -87,9 +87,9 @@ def propagate(rounds):
           f"{statistics.median(a for a, _ in found):.2f} s")
 
 
-# Memory: each in a process of its own, whose peak is taken.
+# Memory: each measurement has its own process, whose peak is reported.
 
-def peak():  # ru_maxrss begins with the memory of the process that started this one
+def peak():  # ru_maxrss is not used, because it includes the memory of the parent process
     with open("/proc/self/status") as file:
         return 1024 * int(next(line for line in file if line.startswith("VmHWM")).split()[1])
 
@@ -123,7 +123,7 @@ def alone(name):
     return run
 
 
-# From nothing to a figure.
+# The time from the start of Python to a figure.
 
 def with_hamflow():
     import matplotlib

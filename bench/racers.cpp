@@ -1,4 +1,4 @@
-// Who races at equal error: methods by type and by name, and other libraries.
+// The methods that are compared at equal error: hamflow by type and by name, and other libraries.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,7 +31,7 @@ Task task_of(std::int64_t steps) {
   return task;
 }
 
-/// On the ellipse, which ends where it begins.
+/// A racer on the ellipse. After one period the exact solution is at the start.
 Racer on_ellipse(const std::string& name, int order, const Runner& run) {
   return {name, order, [run](std::int64_t steps, std::int64_t laps) {
             const Task task = task_of(steps);
@@ -48,9 +48,9 @@ Racer typed(const std::string& name, int order, const Recipe& recipe) {
 std::string by_fixed_point(int stages) { return "gauss(stages=" + std::to_string(stages) + ",iteration=fixed-point)"; }
 std::string gauss_name(int stages) { return "gauss(" + std::to_string(stages) + ")"; }
 
-/// A method by name on a course of so many steps: one simulation for where it ends, and one for the time, in which
-/// recording and compiling, once in a run, do not count.
-/// @param request all but the method   @param error of the end
+/// Runs a method by name on a course: one simulation for the error at the end, and one for the time, without the steps
+/// in which the step is recorded and compiled.
+/// @param request everything except the method   @param error returns the error of the end state
 Racer::Lap run_by_name(hamflow::Request request, const std::string& method, std::int64_t steps, std::int64_t laps,
                        const std::function<double(const std::vector<double>& q)>& error) {
   constexpr std::int64_t until_compiled = 400;
@@ -82,7 +82,7 @@ Racer ellipse_by_name(const std::string& name, int order, const std::string& met
           }};
 }
 
-/// Sun and planets, and where they are after the course.
+/// Sun and planets, with the reference solution at the end of the course.
 class OuterPlanets {
  public:
   OuterPlanets() {
@@ -143,7 +143,7 @@ Course ellipse() {
     all.push_back(ellipse_by_name(gauss_name(stages) + ", fixed-point", 2 * stages, by_fixed_point(stages)));
   }
   for (const auto& peers : {odeint_peers(), gsl_peers()}) {
-    // At these accuracies a first-order method takes 10^8 steps and more.
+    // A method of order 1 would need 10^8 steps or more.
     for (const Peer& peer : peers) {
       if (peer.order > 1) all.push_back(on_ellipse(peer.library + " " + peer.stepper, peer.order, peer.run));
     }
@@ -163,7 +163,7 @@ Course outer_planets() {
   for (const char* method : {"stv4", "suzuki4"}) put(method, 4, method);
   for (const char* method : {"yoshida6", "srkn14a"}) put(method, 6, method);
   for (const char* method : {"kahan-li8", "rkn8-s19"}) put(method, 8, method);
-  // Gauss has compensated sums anyway.
+  // gauss always has compensated sums.
   for (const char* method : {"kahan-li8", "rkn8-s19"})
     put(std::string(method) + ", compensated", 8, method, "compensated");
   for (const int stages : {4, 8}) put(gauss_name(stages) + ", fixed-point", 2 * stages, by_fixed_point(stages));

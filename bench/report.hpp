@@ -1,4 +1,4 @@
-// The measured ratios as a table to read or as JSON.
+// Writes the measured ratios as a table or as JSON.
 #pragma once
 
 #include <string>

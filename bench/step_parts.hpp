@@ -1,11 +1,11 @@
-// What each rounding of a step of cg does to the energy.
+// Measures how each rounding of a step of cg changes the energy.
 //
-// With the increment u = (d, e) that was taken and T(u) = h int J grad H(Z0 + alpha u) dalpha in exact arithmetic, Z0
-// the state with all the digits that are stored, the energy gained is
+// Let Z0 be the state with all stored digits, u = (d, e) the increment of the step, and
+// T(u) = h int J grad H(Z0 + alpha u) dalpha in exact arithmetic. The energy changes by
 //     H(Z0 + u) - H(Z0) = (e.a - d.b)/h,      (a, b) = T(u) - u,
-// linear in the defect (a, b). That is split into a telescoping sum, from T(u) at Z0 down to u, one rounding after the
-// other (`Source`), so that the parts add up to the gain whatever the method did. Numbers that differ in their last
-// digits are subtracted in long double, which leaves 1e-21 of the scale a step, at random.
+// which is linear in the residual (a, b). A telescoping sum from T(u) at Z0 down to u splits it into one part for each
+// rounding (`Source`), so the parts always add up to the change. Numbers that differ only in their last digits are
+// subtracted in long double, which leaves a random error of 1e-21 of the scale per step.
 #pragma once
 
 #include <array>
@@ -19,23 +19,23 @@ using A = Compensated<double>;
 using Long = long double;
 
 enum Source {
-  read_q,     // the step sees the high part of the positions only
-  read_p,     // of the momenta
+  read_q,     // the step uses only the high part of the positions
+  read_p,     // the step uses only the high part of the momenta
   rule,       // weights and offsets of the Gauss rule in double
   points,     // coordinates of the Gauss points
   functions,  // force, or gradient of H, at the points
-  sums,       // products with the weights, and their sum
-  residual,   // d and e of the step are not those for which the mean force was linearized, d - x - c
-  undone,     // what Newton's last correction left, by second derivatives: the stopping rule
+  sums,       // the products with the weights and their sum
+  residual,   // the rounding of d - x - c: d and e differ from the point where the mean force was linearised
+  undone,     // the residual after Newton's last correction, from second derivatives: the stopping rule
   rounded_q,  // the last rounding of d
-  rounded_p,  // of e
+  rounded_p,  // the last rounding of e
   sources
 };
 inline constexpr const char* source_names[] = {"read q", "read p",   "rule",   "points",    "functions",
                                                "sums",   "residual", "undone", "rounded q", "rounded p"};
 using Parts = std::array<double, sources>;
 
-/// The equations E, noting what Newton ended a step with.
+/// The equations E, which also store the last iterate of Newton's method in each step.
 template <class E>
 class Observed : public E {
  public:
@@ -47,7 +47,7 @@ class Observed : public E {
   static inline thread_local Last last;
 
   using E::E;
-  /// The road of most steps (plane_road.hpp) shows no last point; by Newton the bits are the same.
+  /// Disables the fast path, which does not show the last iterate. Newton's method gives the same bits.
   void fast_path(const auto&, int) const = delete;
   auto taken(typename E::Variables& x, const typename E::Point& at) const { return E::taken(x, at); }
   auto taken(typename E::Variables& x, const typename E::Point& at, const typename E::Variables& correction) const {
@@ -64,14 +64,14 @@ Vector<Long, N> to_long(const Vector<double, N>& x) {
   return y;
 }
 
-/// What the split of one step is made of. Gauss points l: weight of the method kappa b_l, of the exact rule `b`.
+/// The Gauss rule of the method in double (its weights are kappa b_l) and the exact one.
 struct Rules {
   explicit Rules(int s) : in_use(gauss_rule<double>(s)), exact(gauss_rule<Quad>(s)) {}
   const GaussRule<double>& in_use;
   const GaussRule<Quad>& exact;
 };
 
-/// H = p^T M^-1 p/2 + V(q), with momenta eliminated.
+/// Splits steps for H = p^T M^-1 p/2 + V(q), with eliminated momenta.
 template <class P, class Precise>
 class NaturalParts {
  public:
@@ -103,7 +103,7 @@ class NaturalParts {
       parts[rounded_q] += e[i] * static_cast<double>(Long(h_) * v[i] - d[i]) / h_;
     }
 
-    // b: what Newton's last linear equation has for a solution in exact arithmetic, x + c
+    // b: the solution x + c of Newton's last linear equation in exact arithmetic
     L target{};
     L exact_sum{};
     for (std::size_t i = 0; i < n; ++i) {
@@ -178,7 +178,7 @@ class NaturalParts {
   Rules rules_;
 };
 
-/// Any H(q, p).
+/// Splits steps for any H(q, p).
 template <class P, class Precise>
 class GeneralParts {
  public:
@@ -191,7 +191,7 @@ class GeneralParts {
   Parts operator()(const PhasePoint<A, n>& from, const typename Observed<E>::Last& last) const {
     using Z = Vector<double, m>;
     const Z u = detail::stacked(last.taken.q, last.taken.p);
-    Z factor{};  // gain = factor . defect
+    Z factor{};  // the change of the energy is factor . (a, b)
     for (std::size_t i = 0; i < n; ++i) {
       factor[i] = u[n + i] / h_;
       factor[n + i] = -u[i] / h_;

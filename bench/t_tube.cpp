@@ -1,6 +1,7 @@
-// The T-tube, two masses on crossed rails between walls: stv4 at the start of Sim-0.6III of the second thesis. The loop
-// by hand has the rule "reject" with the kick of the old position kept, the walls in one branch that is foreseen. Lanes
-// are timed per tube; the first one starts like the other contenders and must end in their state.
+// The T-tube, two masses on crossed rails between walls, with stv4 from the start of Sim-0.6III of the second thesis.
+// The hand-written loop has the rule "reject", keeps the kick of the old position, and tests all walls in one well
+// predicted branch. Times of lanes are per tube. The first lane starts like the other contenders and has to end in
+// their state.
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/walls.hpp"
 #include "plane.hpp"
@@ -16,7 +17,7 @@ constexpr double mass_1 = 1, mass_2 = 100, eps = -0.6;
 constexpr double wall_1[] = {-1, 1}, wall_2[] = {0.1, 2.1};
 const Orbit tube_start{{0.01, 1.1}, {6, 100}};
 
-/// What a loop by hand goes through in each step, with the factors of a kick and what finds the force as arguments.
+/// The state of the hand-written loop.
 struct Tube {
   double x, y, px, py;
   double kick_x = 0, kick_y = 0;
@@ -37,7 +38,7 @@ struct TubeFactors {
   double strength[2], drift_1[2], drift_2[2];
 };
 
-/// A macro, since a function for one instruction set is not inlined into a template for all.
+/// This is a macro, because a function for one instruction set cannot be inlined into a template for all.
 #define BENCH_TUBE_LOOP(find)                               \
   Tube s = load_tube(z);                                    \
   const TubeFactors f(h);                                   \
@@ -122,7 +123,9 @@ Workload tube_workload(const std::string& h_text) {
   using hamflow::WallRule;
   const double h = std::stod(h_text);
   Workload w{"t-tube", h_text, {}, {}, {}};
-  w.bound = [](std::int64_t) { return std::numeric_limits<double>::infinity(); };  // other rules are other motions
+  w.bound = [](std::int64_t) {
+    return std::numeric_limits<double>::infinity();
+  };  // other rules give other trajectories
   const auto by_hand = [&](const std::string& name, auto loop, const std::string& against, bool same) {
     w.contenders.push_back(
         {name, [=](std::int64_t steps) { return run_tube_by_hand(loop, h, steps); }, against, 0, same});
@@ -130,7 +133,7 @@ Workload tube_workload(const std::string& h_text) {
   const auto named = [&](const std::string& name, WallRule rule, const std::string& against, double goal,
                          const std::string& bits_of) {
     const hamflow::Request request = tube_request(rule, h_text, false);
-    // Parts of steps are recorded after some 70 bounces.
+    // Partial steps are recorded after some 70 bounces, within the first 40000 steps.
     w.contenders.push_back({name, [=](std::int64_t steps) { return run_recorded(request, steps, 40000); }, against,
                             goal, bits_of == "hand", 1, bits_of == "hand" ? "" : bits_of});
   };

@@ -43,7 +43,7 @@ void check(const Workload& workload, const std::vector<Run>& runs, std::size_t i
   }
 }
 
-/// Steps in a block, from a hand-written loop run long enough to be timed, rounded to three digits.
+/// Chooses the number of steps of a block, rounded to three digits, by timing the hand-written loop.
 std::int64_t calibrate(const Workload& workload, const Plan& plan) {
   const Contender& hand = workload.contenders.front();
   std::int64_t steps = 1000;
@@ -56,7 +56,7 @@ std::int64_t calibrate(const Workload& workload, const Plan& plan) {
   return std::max<std::int64_t>(1000, static_cast<std::int64_t>(wanted) / 1000 * 1000);
 }
 
-/// The blocks of one contender, round after round.
+/// The times of one contender, one for each round.
 struct Series {
   std::vector<double> ns_per_step;
   double forces_per_step = 0;
@@ -110,7 +110,7 @@ Table summarise(const Workload& workload, std::int64_t steps, const std::vector<
   return table;
 }
 
-/// The series of a contender, null when it takes no part.
+/// Returns the series of a contender, or null if it was not measured.
 const Series* find(const std::vector<Workload>& workloads, const std::vector<std::vector<Series>>& all,
                    const std::string& h_text, const std::string& method, const std::string& contender) {
   for (std::size_t w = 0; w < workloads.size(); ++w) {
@@ -155,7 +155,7 @@ Measured measure(const std::vector<Workload>& workloads, const std::vector<Compa
   std::vector<std::int64_t> steps;
   std::vector<std::vector<Series>> all;
   for (const Workload& workload : workloads) {
-    // A short run first: here the bound is tight.
+    // A short run comes first, because the bound is tight for few steps.
     (void)play_round(workload, 1000, 0);
     steps.push_back(calibrate(workload, plan));
     all.emplace_back(workload.contenders.size());

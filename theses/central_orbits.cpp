@@ -43,7 +43,7 @@ struct CentralField {
   }
 };
 
-/// Whether V_eff meets E again further out.
+/// Whether V_eff(r') = E for some r' > r, which bounds the motion.
 bool meets_beyond(const OrbitCase& orbit, double r) {
   const double E = orbit.energy();
   double at = r * 1.01;
@@ -72,7 +72,7 @@ OrbitPath follow(const OrbitCase& orbit, const Options& options) {
     path.t.push_back(t);
     path.points.push_back({x, y});
     path.rate.push_back(rate);
-    // A circle has rounding for its rate: it is followed for about a turn all the same.
+    // On a circle the rate is only rounding, and changes its sign often. 90 steps are about one revolution.
     if (path.minima + path.maxima >= 3 && step >= 90) break;
     if (r > 30 * start && rate > 0 && !meets_beyond(orbit, r)) {
       path.escaped = true;
@@ -91,8 +91,8 @@ OrbitPath follow(const OrbitCase& orbit, const Options& options) {
 
 using Six = std::array<std::array<long double, 6>, 6>;
 
-/// Eigenvalues of a symmetric matrix on its diagonal, eigenvectors in the columns of the result, by rotations of
-/// Jacobi.
+/// Diagonalises a symmetric matrix by Jacobi rotations. The eigenvalues end on its diagonal; the columns of the result
+/// are the eigenvectors.
 Six diagonalised(Six& m) {
   Six v{};
   for (std::size_t i = 0; i < 6; ++i) v[i][i] = 1;
@@ -124,8 +124,8 @@ Six diagonalised(Six& m) {
   return v;
 }
 
-/// Points of mean 0 and covariance 1, by the Cholesky factor of their covariance. Those far out on a path that escapes
-/// say little more than its asymptote.
+/// Transforms the points of a path to mean 0 and covariance 1, by the Cholesky factor of their covariance. It omits
+/// distant points of an escaping path, which show little more than the asymptote.
 std::vector<std::array<long double, 2>> whitened(const OrbitPath& path) {
   std::vector<std::array<long double, 2>> all;
   const double limit = 6 * std::hypot(path.points.front()[0], path.points.front()[1]);
@@ -195,8 +195,8 @@ ConicFit conic_through(const OrbitPath& path) {
   ConicFit fit;
   fit.misfit = static_cast<double>(std::sqrt(std::max(m[least][least], 0.0L)));
   fit.discriminant = static_cast<double>(v[1][least] * v[1][least] - 4 * v[0][least] * v[2][least]);
-  // The normal equations know squares to 1e-19: misfits below 1e-9 are none. The coefficients are then known to the
-  // misfit over the distance of the next conic.
+  // The normal equations resolve squares down to 1e-19, so a misfit below 1e-9 is rounding. The error of the
+  // coefficients is the misfit divided by the misfit of the second best conic (`distance`).
   constexpr double floor = 1e-9;
   const double distance = static_cast<double>(std::sqrt(std::max(second, 0.0L)));
   const double unsure = 20 * std::max(fit.misfit, floor) / distance;

@@ -1,5 +1,5 @@
-// Orbits in the central potentials of [Gross1999, ch. 2], followed by two families of methods, and what they are:
-// bounded or not, a conic or none, by their points alone.
+// Orbits in the central potentials of [Gross1999, ch. 2], integrated with two families of methods, and their
+// classification from points alone: bounded or not, and which conic if any.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace hamflow::reproduction {
 
 enum class Field { kepler, hooke, linear, binomial };
 
-/// A potential, a start in the plane, and what follows from it.
+/// A central potential and a start in the plane.
 struct OrbitCase {
   Field field = Field::kepler;
   double mass = 1;
@@ -30,32 +30,34 @@ struct OrbitCase {
   std::string told() const;
 };
 
-/// From the start on: through three extrema of r, or outwards until V_eff meets E no more.
+/// A path from the start. It ends after three extrema of r, or once r grows and V_eff(r) = E has no solution further
+/// out.
 struct OrbitPath {
   std::vector<double> t;
   std::vector<std::array<double, 2>> points;
-  std::vector<double> rate;  // q.p, the sign of dr/dt
+  std::vector<double> rate;  // q.p, which has the sign of dr/dt
   int minima = 0;
   int maxima = 0;
   bool escaped = false;
   bool bounded() const { return minima > 0 && maxima > 0; }
 };
-/// dop853, tolerance 1e-13, in double.
+/// Integrates with dop853, tolerance 1e-13, in double.
 OrbitPath orbit_path(const OrbitCase& orbit);
-/// The modified midpoint rule extrapolated, tolerance 1e-17, in long double: another method in more digits.
+/// Integrates with the extrapolated midpoint rule, tolerance 1e-17, in long double: another method with more digits,
+/// which confirms orbit_path().
 OrbitPath orbit_path_confirmed(const OrbitCase& orbit);
 
 enum class OrbitShape { ellipse, parabola, hyperbola, no_conic, unclear };
 struct ConicFit {
   OrbitShape shape = OrbitShape::unclear;
-  double misfit = 0;        // root mean square of a x^2 + b x y + c y^2 + d x + e y + f, coefficients of norm 1
-  double discriminant = 0;  // b^2 - 4 a c of them
+  double misfit = 0;        // root mean square of a x^2 + b x y + c y^2 + d x + e y + f; (a, b, c, d, e, f) has norm 1
+  double discriminant = 0;  // b^2 - 4 a c
 };
-/// The conic nearest to the points of a path, in coordinates in which they scatter alike in all directions: affine maps
-/// leave the kind of a conic.
+/// Fits a conic to the points of a path. An affine map first gives the points the same spread in all directions; it
+/// does not change the kind of a conic.
 ConicFit conic_through(const OrbitPath& path);
 
-/// Uniform in [0, 1), and equal for equal arguments.
+/// Returns a random number, uniform in [0, 1). Equal arguments give equal numbers.
 double drawn(std::uint64_t seed, std::uint64_t number);
 
 }  // namespace hamflow::reproduction

@@ -1,5 +1,5 @@
-// What a few samples say of all: the sign test, and the share of counter-examples that a search without one leaves
-// open.
+// Statistics of samples: the sign test, and the largest share of counter-examples that a search without a finding
+// allows.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace hamflow::reproduction {
 
-/// Of what is concluded; chance alone leads to the opposite in one of twenty studies.
+/// The confidence level of all conclusions: chance alone causes a wrong conclusion in one of twenty studies.
 inline constexpr double confidence = 0.95;
 
-/// P of so many heads or fewer among n tosses of a fair coin.
+/// The probability of at most `heads` heads in n tosses of a fair coin.
 inline double chance_of_at_most(int heads, int n) {
   double sum = 0;
   for (int k = 0; k <= heads; ++k) {
@@ -22,20 +22,20 @@ inline double chance_of_at_most(int heads, int n) {
   return sum;
 }
 
-/// How far from n/2 a count may be before chance does not explain it, the sign test on both sides: half a case beyond
-/// the farthest count that chance explains. What n cases cannot show at all is beyond n.
+/// The largest distance of a count from n/2 that chance explains, by the two-sided sign test, plus one half. If n cases
+/// are too few for any conclusion, it is larger than n/2.
 inline double sign_test_uncertainty(int n) {
-  int fewest = n / 2;  // of the counts up to n/2 the least that chance explains
+  int fewest = n / 2;  // ends one below the smallest count that chance explains
   while (fewest >= 0 && 2 * chance_of_at_most(fewest, n) > 1 - confidence) --fewest;
   return n / 2.0 - (fewest + 1) + 0.5;
 }
 
-/// "More than half": of the cases that differ at all. At least half of them by more than the sign test's uncertainty,
-/// which half of them, or a few more, never are.
+/// Counts the cases for and against a statement "more than half ...". Ties do not count. The rule asks for more than
+/// half of the cases by more than the uncertainty of the sign test, so that slightly more than half leave it undecided.
 struct Majority {
   int with = 0, against = 0;
 
-  void count(double a, double b) {  // a < b is with it
+  void count(double a, double b) {  // a < b counts for the statement
     with += a < b ? 1 : 0;
     against += a > b ? 1 : 0;
   }
@@ -51,12 +51,13 @@ struct Majority {
   }
 };
 
-/// The largest share of counter-examples with which a search of n cases finds none in one of twenty searches: the exact
-/// binomial bound, 3/n for many ("rule of three").
+/// The upper bound (95 % confidence) for the share of counter-examples after a search of n cases found none. This is
+/// the exact binomial bound; it is about 3/n for large n ("rule of three").
 inline double largest_share_unseen(int n) { return n > 0 ? 1 - std::pow(1 - confidence, 1.0 / n) : 1; }
 
-/// "None does", of all cases there are: one that does refutes it. Where none of those looked at does, as many as the
-/// bound leaves among ten others: it holds where that is below a half, one case in twenty, from 59 on.
+/// The rule for the statement that no case does something. One counter-example refutes it. If the cases searched have
+/// none, the uncertainty is the number of counter-examples that the bound allows in ten other cases. The statement
+/// holds if this is below 1/2, that is one in twenty, which needs 59 cases.
 inline Rule none_of_all(const std::string& what) {
   Rule rule = none_of(what);
   rule.text += "; of those not looked at fewer than one in twenty, 95 % confidence: 59 without one";

@@ -8,7 +8,7 @@
 namespace hamflow {
 
 namespace {
-/// The place of the last digit that is printed: 0.01 of "-0.25", 1e-18 of "3.747e-15".
+/// One unit of the last printed digit: 0.01 for "-0.25", 1e-18 for "3.747e-15".
 double last_place(const std::string& number) {
   const std::size_t e = number.find_first_of("eE");
   const std::string mantissa = number.substr(0, e);
@@ -20,11 +20,11 @@ double last_place(const std::string& number) {
 
 enum class Place { inside, outside, unclear };
 
-/// Where all that a number may be lies.
+/// Returns the place of the interval value +- uncertainty.
 Place place_of(const Rule& rule, const Measured& measured) {
   const double low = measured.value - measured.uncertainty;
   const double high = measured.value + measured.uncertainty;
-  if (!(low <= high)) return Place::unclear;  // no number was found
+  if (!(low <= high)) return Place::unclear;  // NaN
   if (low >= rule.low && high <= rule.high) return Place::inside;
   if (high < rule.low || low > rule.high) return Place::outside;
   return Place::unclear;
@@ -37,7 +37,7 @@ std::string told(const Measured& measured) {
   }
   return measured.how.empty() ? text : text + " (" + measured.how + ")";
 }
-/// A number that something is subtracted from.
+/// Puts brackets around a negative number, so that it can follow a minus sign.
 std::string in_brackets(const std::string& number) { return number.starts_with('-') ? "(" + number + ")" : number; }
 }  // namespace
 
@@ -50,7 +50,7 @@ std::string number_text(const Measured& one) {
 
 Rule as_printed(const std::string& number) {
   const double value = std::stod(number);
-  // Half a unit, and what a decimal number loses as a double.
+  // Half a unit of the last digit, with a margin for the conversion from decimal to double.
   const double half = last_place(number) / 2 * (1 + 1e-9);
   return {"|measured - " + in_brackets(number) + "| at most half a unit of the last digit printed", value - half,
           value + half};

@@ -1,5 +1,5 @@
-// **Claim**: what a thesis prints or says, what was measured of it, and the rule by which the two are judged. No
-// verdict is written down anywhere: each is what judge() makes of the numbers.
+// A **claim** consists of a statement of a thesis, the numbers measured for it, and a rule. judge() computes each
+// verdict from the numbers; no verdict is stored in the source.
 #pragma once
 
 #include <limits>
@@ -10,42 +10,44 @@
 
 namespace hamflow {
 
-/// A number, how far it may be off, and by what it was found.
+/// A measured number, its uncertainty and how it was measured.
 struct Measured {
   double value = 0;
   double uncertainty = 0;  // the number lies within value +- uncertainty
-  std::string how{};       // e.g. "cg(1,5), dt = 0.1"; of a claim with several, each by another way
+  std::string how{};       // e.g. "cg(1,5), dt = 0.1"; the numbers of one claim are measured in different ways
 };
 
-/// As many digits of it as the uncertainty leaves: two of it, three at least, and eight of a number that has none.
+/// Writes the number to two digits of its uncertainty, with at least three digits; with eight digits if the uncertainty
+/// is 0.
 std::string number_text(const Measured& one);
 
-/// "page 42", "pages 99, 100", "pages 86 to 89".
+/// Returns "page 42", "pages 99, 100" or "pages 86 to 89".
 inline std::string pages_text(const std::string& page) {
   return (page.find_first_not_of("0123456789") == std::string::npos ? "page " : "pages ") + page;
 }
 
-/// A claim holds where the number that was measured of it lies within [low, high].
+/// A claim holds if its measured number is within [low, high].
 struct Rule {
   std::string text;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
 
-/// A number as it is printed: half a unit of its last digit up or down. @param number e.g. "-0.25", "3.747e-15"
+/// The measured number has to round to the printed one: half a unit of the last digit up or down.
+/// @param number e.g. "-0.25", "3.747e-15"
 Rule as_printed(const std::string& number);
-/// @param why where the limit comes from
+/// @param why the reason for the limit
 Rule at_most(double limit, const std::string& why);
 Rule at_least(double limit, const std::string& why);
 Rule within(double expected, double tolerance, const std::string& why);
-/// For counts of counter-examples: one is enough.
+/// The rule for counts of counter-examples: a single one refutes the claim.
 Rule none_of(const std::string& what);
 
-/// What it takes for a claim that was found wrong to be wrong whatever the program.
+/// How a claim was measured. This decides whether a number outside of the rule gives "differs" or "cannot hold".
 enum class Grounds {
-  program,  // measured once, with a program: printed and measured differ
-  ways,     // measured in two independent ways, one of them in more digits or in closed form
-  identity  // the number is a discrepancy between printed numbers, or of an identity
+  program,  // by one program: "differs"
+  ways,     // in two independent ways, one of them with more digits or in closed form: "cannot hold"
+  identity  // as a contradiction between printed numbers, or to an identity: "cannot hold"
 };
 
 enum class ClaimVerdict { holds, differs, cannot_hold, undecided, nothing_to_test };
@@ -73,8 +75,9 @@ struct Judgement {
   std::string reason;
 };
 
-/// All numbers within the rule by more than they are uncertain: holds. All beyond it: differs, or on good grounds
-/// cannot hold; `ways` takes two numbers at least. Anything else, and a number that is none: undecided.
+/// Judges a claim. If the uncertainties of all numbers are inside of the rule, it holds. If they are all outside, it
+/// differs, or it cannot hold, depending on the grounds; Grounds::ways needs at least two numbers. Otherwise, or if a
+/// number is NaN, it is undecided.
 Judgement judge(const Rule& rule, std::span<const Measured> measured, Grounds grounds);
 
 struct Claim {
@@ -86,7 +89,7 @@ struct Claim {
   std::vector<Measured> measured;  // the first one is the claim's `measured` and `uncertainty`
   Rule rule;
   Grounds grounds = Grounds::program;
-  std::string decided_by{};  // for where it is undecided: what run would tell
+  std::string decided_by{};  // the run that could decide the claim, shown if it is undecided
   Judgement judgement;
 };
 

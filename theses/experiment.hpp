@@ -1,5 +1,5 @@
-// One experiment. A file of experiments/, say kepler_orbits.cpp, defines `kepler_orbits_experiments()`; its other names
-// stand in the namespace `kepler_orbits`, since several files are compiled as one.
+// Experiments. A file of experiments/, for example kepler_orbits.cpp, defines `kepler_orbits_experiments()`. Its other
+// names are in the namespace `kepler_orbits`, because several files are compiled as one.
 #pragma once
 
 #include <functional>
@@ -18,16 +18,16 @@ inline const char* const sonnleitner = "Sonnleitner";
 struct Experiment {
   ExperimentInfo info;
   std::function<void(Study&)> carry_out;
-  /// Of the file that it stands in: an experiment that was changed is carried out again.
+  /// The text of its source file. If it changes, the experiment runs again.
   std::string source{};
 };
 
-/// Those of all files, in the order of the theses.
+/// The experiments of all files, in the order of the theses.
 const std::vector<Experiment>& all_experiments();
-/// @throws Error where there is none of that ID
+/// @throws Error if no experiment has this ID
 const Experiment& experiment_of(const std::string& id);
 
-/// The drawings of a thesis, of which there is nothing to measure.
+/// An experiment for drawings of a thesis, which contain nothing to measure.
 Experiment drawing(const char* thesis, const std::string& id, const std::string& page, const std::string& title);
 
 }  // namespace hamflow::reproduction

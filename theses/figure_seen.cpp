@@ -11,13 +11,13 @@
 namespace hamflow::reproduction {
 
 namespace {
-/// gnuplot's enhanced text without its marks: "{/:Italic p}_1" is "p1".
+/// Removes the marks of gnuplot's enhanced text: "{/:Italic p}_1" becomes "p1".
 std::string plain_text(const std::string& enhanced) {
   std::string text;
   for (std::size_t i = 0; i < enhanced.size(); ++i) {
     const char c = enhanced[i];
     if (c == '{') {
-      if (enhanced[i + 1] == '/') {  // a font, up to the blank behind its name
+      if (enhanced[i + 1] == '/') {  // the name of a font, which ends with a blank
         i = std::min(enhanced.find(' ', i), enhanced.size());
       }
     } else if (c != '}' && c != '_') {
@@ -29,23 +29,23 @@ std::string plain_text(const std::string& enhanced) {
 
 using namespace figures;
 
-constexpr std::size_t most_told = 6;  // of a panel with more curves nobody keeps them apart by ear
+constexpr std::size_t most_told = 6;  // a listener cannot tell more curves of one panel apart
 
-/// As a hand on the figure would find it: a hundredth of the axis is nothing.
+/// Whether two values look equal in the figure: they differ by less than a hundredth of the axis.
 bool is_near(double a, double b, const Axis& axis) {
   return std::abs(axis.place(a) - axis.place(b)) < 0.01 * (axis.high - axis.low);
 }
 
-/// To what the axis resolves: three digits, fewer where these are beneath a hundredth of it.
+/// Writes a value with as many digits as a 300th of the axis resolves; on a logarithmic axis with three digits.
 std::string told(double x, const Axis& axis) {
   if (!axis.logarithmic && is_near(x, 0, axis)) return "0";
   const double resolved = axis.logarithmic ? 0 : std::abs(axis.high - axis.low) * std::pow(10.0, axis.exponent) / 300;
   const int digits = resolved > 0 ? static_cast<int>(std::ceil(std::log10(std::abs(x) / resolved))) : 3;
-  // Rounded first: "1000", not "1e+03".
+  // Rounding before the last format gives "1000" instead of "1e+03".
   return fmt::format("{:.10g}", std::stod(fmt::format("{:.{}g}", x, std::clamp(digits, 1, 10))));
 }
 
-/// "turning points" reach, a curve reaches.
+/// Whether the verb is plural: "turning points reach", but "a curve reaches".
 bool is_plural(const std::string& name) { return name.size() > 2 && name.back() == 's'; }
 
 std::string told(const Curve& curve, const Panel& panel, const std::string& who) {
@@ -95,7 +95,7 @@ const char* kind_of(const Series& series) {
   }
 }
 
-/// Of a logarithmic axis the numbers, not their logarithms.
+/// Describes the range of an axis. Logarithmic axes store logarithms; the text shows the values.
 std::string told_range(const char* name, const Axis& axis) {
   const auto number = [&](double x) { return fmt::format("{:.3g}", axis.logarithmic ? std::pow(10.0, x) : x); };
   const std::string unit = axis.exponent == 0 ? "" : fmt::format(", in 10^{}", axis.exponent);
@@ -103,14 +103,14 @@ std::string told_range(const char* name, const Axis& axis) {
                      axis.logarithmic ? ", logarithmic" : "");
 }
 
-/// A prime alone is easily missed by ear.
+/// Names V' "effective potential V'", because a listener easily misses the prime.
 std::string label_of(const std::string& enhanced) {
   std::string label = plain_text(enhanced);
   if (const std::size_t prime = label.find("V'"); prime != label.npos) label.insert(prime, "effective potential ");
   return label;
 }
 
-/// Names of methods and letters of formulas stay as they are.
+/// Capitalises the first word and adds a full stop. Names of methods and symbols of formulas keep their case.
 std::string as_sentence(std::string text) {
   std::size_t letters = 0;
   while (letters < text.size() && text[letters] >= 'a' && text[letters] <= 'z') ++letters;

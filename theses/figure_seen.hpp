@@ -1,4 +1,4 @@
-// A figure in words, for those who do not see it: its axes, its kinds of lines, and what the curves do.
+// Describes a figure in words, for readers who cannot see it: axes, kinds of lines, and the course of the curves.
 #pragma once
 
 #include <string>
@@ -7,9 +7,10 @@
 
 namespace hamflow::reproduction {
 
-/// "cg(1,5) reaches from 1 to 3 in y, and ends where it begins.", a sentence for each line and each kind of dots.
+/// Describes the curves, one sentence each: "cg(1,5) reaches from 1 to 3 in y, and ends where it begins."
 std::string seen_in(const figures::Page& page);
-/// "2 panels. 1: E over t, x from 0 to 25, y from -1 to 1; exact: a line, element: dots.", and what seen_in() says.
+/// Describes panels, axes and kinds of lines, then the curves as seen_in() does: "2 panels. 1: E over t, x from 0 to
+/// 25, y from -1 to 1; exact: a line, element: dots. ..."
 std::string words_of(const figures::Page& page);
 
 }  // namespace hamflow::reproduction

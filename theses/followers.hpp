@@ -1,4 +1,4 @@
-// How many runs of the T-tube follow a trend of [Sonnleitner2010], page 94.
+// Counts the runs of the T-tube that follow a trend of [Sonnleitner2010], page 94.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace hamflow::reproduction::t_tube_table {
 
-/// Runs that follow a trend, that go against it, and that leave it open.
+/// The numbers of runs that follow a trend, that go against it, and that are undecided.
 struct Count {
   int with = 0, against = 0, open = 0;
 
@@ -19,31 +19,33 @@ struct Count {
   void add(const Count& other) { with += other.with, against += other.against, open += other.open; }
 };
 
-/// Of each v1, for the starts of one are no independent sample of what the conditions allow.
+/// Counts separately for each v1, because the starts with one v1 are not independent samples of all conditions.
 struct Followers {
   std::vector<Count> of_starts;
 
-  /// A run of the last v1, by 3 standard errors of its own blocks. @param excess > 0 is against the trend
+  /// Counts a run of the last v1. It is undecided within 3 standard errors, which come from the blocks of the run.
+  /// @param excess a positive value is against the trend
   void count(double excess, double error) {
     Count& last = of_starts.back();
     ++(excess > 3 * error ? last.against : excess <= -3 * error ? last.with : last.open);
   }
-  /// One that cannot be counted.
+  /// Counts a run as undecided.
   void leave_open() { ++of_starts.back().open; }
   Count all() const {
     Count sum;
     for (const Count& one : of_starts) sum.add(one);
     return sum;
   }
-  /// Half of the share that is open, since those may do either.
+  /// The uncertainty from undecided runs: half of their share, because each of them may follow the trend or not.
   double of_open() const { return all().open / 2.0 / all().all(); }
-  /// 3 standard errors: other v1 may have another share.
+  /// The uncertainty from the choice of v1: 3 standard errors of the share over all v1.
   double of_v1() const {
     std::vector<double> shares;
     for (const Count& one : of_starts) shares.push_back(one.share());
     return 3 * spread_of(shares).standard_error();
   }
-  /// The share that follows. @param cut so many of the open ones, since H was off
+  /// The share of runs that follow the trend.
+  /// @param cut the number of undecided runs that were stopped because of their energy error
   Measured share(int cut) const {
     const auto less = [](const Count& a, const Count& b) { return a.share() < b.share(); };
     const auto [least, most] = std::minmax_element(of_starts.begin(), of_starts.end(), less);
@@ -56,8 +58,8 @@ struct Followers {
   }
 };
 
-/// What is printed of a series of simulations is a trend: more than half of them follow it. The thesis' own table has
-/// exceptions, 2 of 6 where the force attracts.
+/// The thesis prints a trend of a series of simulations: more than half of them have to follow it. Its own table has
+/// exceptions, 2 of 6 for attracting forces.
 inline Rule trend_rule() {
   return at_least(0.5,
                   "share of the runs of a grid of v1 and Q1 that follow: a trend is what more than half do, for "

@@ -19,7 +19,7 @@ double mean_error(const std::vector<double>& a, const std::vector<double>& b) {
 
 double speed(const ListedGas& gas, std::size_t i) { return std::hypot(gas.p()[i], gas.p()[i + 1]); }
 
-/// The place of its x among the coordinates. A speed that is none is the highest.
+/// The index of the x coordinate of the fastest particle. A NaN counts as the highest speed.
 std::size_t fastest(const ListedGas& gas) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < gas.p().size(); i += 2) found = speed(gas, i) <= speed(gas, found) ? found : i;
@@ -67,7 +67,7 @@ void ListedGas::evaluate() {
 }
 
 void ListedGas::step() {
-  // The force at the end of a part is that at the start of the next: the listing computes it twice.
+  // The force at the end of a sub-step is the force at the start of the next one. The listing computes it twice.
   for (const double w : {1.35120719195966, -1.70241438391932, 1.35120719195966}) {
     for (std::size_t i = 0; i < q_.size(); ++i) p_[i] += force_[i] * w * dt_ / 2;
     for (std::size_t i = 0; i < q_.size(); ++i) q_[i] += p_[i] * w * dt_;

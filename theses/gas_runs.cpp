@@ -75,7 +75,7 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i + 1 < a.size(); i += 2) {
     const double r = std::hypot(a[i] - b[i], a[i + 1] - b[i + 1]);
-    most = r <= most ? most : r;  // a place that is none is the farthest
+    most = r <= most ? most : r;  // NaN counts as the largest distance
     if (std::isnan(r)) return r;
   }
   return most;

@@ -20,19 +20,19 @@ struct GasRun {
   std::int64_t steps = 200;
   std::string arithmetic = "double";
   int seed = 1;
-  std::int64_t record_every = 0;  // 0: the end only
+  std::int64_t record_every = 0;  // 0: only the end
 
   int particles() const { return side * side; }
-  /// S; "listing" takes the number of particles for that of a side.
+  /// The scale S. For "listing" it is computed with the number of all particles in place of the number of one side.
   double scale_number() const;
 };
 std::string name_of(const GasRun& run);
 std::string gas_scenario(const GasRun& run);
 
-/// What came back of a start, in the measure of the listing, page 72: sqrt(sum |difference|^2)/N.
+/// The result of a reversal: distances from the start in the norm of the listing (page 72), sqrt(sum |difference|^2)/N.
 struct Return {
   bool done = false;
-  std::int64_t failed_at = 0;  // the step that was not taken, of those there and back
+  std::int64_t failed_at = 0;  // the step that failed, counted over both directions
   std::string message;
   double position = 0;
   double momentum = 0;
@@ -43,19 +43,18 @@ struct Return {
 };
 Return there_and_back(Study& study, const GasRun& run);
 
-/// Decimal digits of an arithmetic, as its runs have them: of the powers of 1/2, the last that a free motion still
-/// adds to 1.
+/// Measures the decimal digits of an arithmetic with runs: the smallest power of 1/2 that a free motion can add to 1.
 double digits_of(Study& study, const std::string& arithmetic);
 
-/// How far the particle that moved farthest is from its start. @param a, b x, y of each
+/// The largest distance between two places of one particle. @param a, b x and y of each particle
 double farthest(const std::vector<double>& a, const std::vector<double>& b);
 
-/// x, y of particles that stand one after the other, as marks.
+/// Particles to be drawn as marks: x and y of each in turn.
 struct Places {
   std::string name;
   std::vector<double> xy;
   std::string colour;
-  int shape = 7;  // as of a Mark
+  int shape = 7;  // see figures::Mark
 };
 figures::Panel places(const std::string& x_label, const std::string& y_label, const std::vector<Places>& all);
 

@@ -12,7 +12,8 @@ namespace hamflow {
 namespace reproduction {
 
 namespace {
-/// "G2.8": the letter of the thesis, what it is of (a figure, a table, a claim), and numbers in their order.
+/// The parts of an ID such as "G2.8", by which experiments are sorted: the letter of the thesis, the kind (figure,
+/// table or claim), and the numbers.
 struct Place {
   char thesis;
   int kind;

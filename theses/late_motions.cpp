@@ -35,15 +35,15 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-/// @param moved by which Q1 is another
+/// @param moved the shift of Q1
 std::string initial_of(const LateMotion& late, double moved) {
   const std::vector<double>&q = late.q, &p = late.p;
   return fmt::format("problem.initial={{ q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}] }}", q[0] + moved, q[1], p[0],
                      p[1]);
 }
 
-/// How far two neighbours are apart in the later half of a run, over how far they were at first. Of a regular motion
-/// that grows like t; of a chaotic one it ends where they are as far apart as they can be, near 1/shift.
+/// The median distance of two neighbours in the second half of a run, divided by their distance at the start. It grows
+/// linearly for regular motions. For chaotic ones it saturates near 1/shift, the size of the domain.
 double parting(Study& study, const std::string& name, TubeRun run, const LateMotion& late, double shift) {
   run.eps = late.eps;
   run.steps = study.sized<std::int64_t>(20000, 100000, 1000000);
@@ -59,15 +59,15 @@ double parting(Study& study, const std::string& name, TubeRun run, const LateMot
   return median(all) / std::abs(shift);
 }
 
-/// The same, and how much it depends on how far apart they were.
+/// As parting() for a shift of 1e-9. The uncertainty is the difference to a shift of 2e-9.
 Measured measured_parting(Study& study, const std::string& name, const TubeRun& run, const LateMotion& late,
                           const std::string& how) {
   const double one = parting(study, name, run, late, 1e-9), other = parting(study, name + "_wider", run, late, 2e-9);
   return {one, std::abs(one - other), how};
 }
 
-/// How far around a late motion others are regular, as their own exponents tell: with the listing's rule, and in the
-/// true flow, whose walls are located.
+/// Measures how far from a late motion other motions are regular, by their own exponents: with the rule of the listing,
+/// and in the true flow, with located bounces.
 void tell_neighbourhood(Study& study, const LateMotion& late, TextTable& table) {
   std::vector<double> shifts{0};
   if (study.sized(0, 1, 1) > 0) shifts = {0, 1e-4, 1e-3, 1e-2, 0.1};
@@ -83,11 +83,11 @@ void tell_neighbourhood(Study& study, const LateMotion& late, TextTable& table) 
   }
 }
 
-/// A motion goes round in up to 910 time units: what one round says of it is not known before some of them.
+/// A motion takes up to 910 time units for one round. Exponents mean something only after a few rounds.
 constexpr double some_rounds = 2000;
 
-/// Regular with the rule of the listing: by the tangent of the motion itself. Of neighbours at any distance only those
-/// within the regular set would tell, and how wide that is is not known before.
+/// Claims that a late motion is regular with the rule of the listing. It uses a tangent vector of the motion itself.
+/// Neighbours at a finite distance could leave the regular set, whose width is unknown.
 void claim_regular(Study& study, const LateMotion& late) {
   const auto steps = study.sized<std::int64_t>(20000, 200000, 1000000);
   const double time = 4 * 0.01 * static_cast<double>(steps);
@@ -98,7 +98,7 @@ void claim_regular(Study& study, const LateMotion& late) {
         exponents_from(study, {.run = {.rule = "reject"}}, own, std::string(late.name) + "_own", steps);
     const auto units = [](double exponent, double t) { return std::abs(exponent) * t / std::log(t); };
     const double longer = units(of.longer, time), shorter = units(of.shorter, time / 4);
-    if (std::isfinite(longer) && std::isfinite(shorter)) {  // a motion that ends tells nothing
+    if (std::isfinite(longer) && std::isfinite(shorter)) {  // a failed run gives no measurement
       measured.push_back({longer, std::abs(longer - shorter),
                           fmt::format("exponents {:.2g} over {:g} and {:.2g} over {:g} time units, reject, dt = 0.01",
                                       of.shorter, time / 4, of.longer, time)});

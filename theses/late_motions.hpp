@@ -1,5 +1,5 @@
-// Late motions of the T-tube, those that are regular after a long transient: by their largest exponents, and by how far
-// neighbours part.
+// Motions of the T-tube that are regular after a long transient ("late motions"). Lyapunov exponents and the distance
+// of neighbouring trajectories show whether they are.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace hamflow::reproduction {
 
-/// Largest Lyapunov exponents over T and 4 T time units from the end of a run. Of a regular motion neighbours part like
-/// t, so that they fall like log T/T; three times that is allowed for the shear. A chaotic one has 50 times that.
+/// The largest Lyapunov exponents over T and 4 T time units from the end of a run. Neighbours of a regular motion
+/// separate linearly, so its exponents are near log T/T. The limit is three times that, because shear adds to it.
+/// Chaotic motions have 50 times that.
 struct Exponents {
   double shorter = 0, longer = 0, time = 0;
   bool regular() const {
@@ -19,15 +20,16 @@ struct Exponents {
   }
 };
 
-/// Over so many steps, and four times as many: infinite where the motion ends, which a soft wall may do. In double,
-/// since tangents of the lattice are none.
+/// Measures the exponents over `steps` and 4 `steps` steps. An exponent is infinite if the run fails, for example at a
+/// soft wall. The arithmetic is double, because the lattice has no tangent vectors.
 Exponents exponents_from(Study& study, const TubeSet& set, const TubeWatch& seen, const std::string& name,
                          std::int64_t steps);
 
-/// Of located bounces each costs a hundred steps, for tangents go through it in more digits.
+/// The number of steps with located bounces. It is smaller, because a located bounce costs as much as a hundred steps:
+/// tangent vectors pass it with more digits.
 std::int64_t steps_in_true_flow(const Study& study);
 
-/// Whether the late motions are regular with the listing's rule, and whether the true flow has them.
+/// Claims that the late motions are regular with the rule of the listing, and that the true flow has them, too.
 void claim_late_motions(Study& study);
 
 }  // namespace hamflow::reproduction

@@ -1,5 +1,5 @@
-// hamflow-reproduce: the experiments of both theses, and a page with verdicts. `hamflow reproduce`, `list experiments`
-// and `show ID` start it.
+// hamflow-reproduce runs the experiments of both theses and writes a page with verdicts. `hamflow reproduce`, `hamflow
+// list experiments` and `hamflow show ID` start it.
 #include <fmt/format.h>
 #include <sys/mman.h>
 
@@ -34,7 +34,7 @@ struct Options {
   std::vector<std::string> what;  // IDs, gross, sonnleitner, all
   bool quick = false;
   bool full = false;
-  std::string out;  // a folder; empty: reproduce
+  std::string out;  // the output directory; empty: reproduce
   bool force = false;
   bool resume = false;
   int threads = 0;  // 0: all cores
@@ -80,7 +80,7 @@ ReproduceRequest request_of(const Options& options) {
           .threads = options.threads > 0 ? options.threads : cores};
 }
 
-/// @param begun becomes true with the first experiment
+/// @param begun set to true when the first experiment starts
 int carry_out(const Options& options, bool& begun) {
   check_together(options);
   const ReproduceRequest request = request_of(options);
@@ -139,7 +139,8 @@ void show_claim(const Claim& claim) {
   line("verdict", fmt::format("{}: {}", name(claim.judgement.verdict), claim.judgement.reason));
 }
 
-/// Claims are made while an experiment runs: what it measures stands in them.
+/// Shows the claims that are stored in a reproduction. There are none before the experiment runs, because claims
+/// contain its measurements.
 void show_claims(const std::string& id, const std::filesystem::path& folder) {
   std::error_code none;
   const bool is_there = std::filesystem::exists(folder / "reproduction", none);
@@ -160,7 +161,7 @@ void show_claims(const std::string& id, const std::filesystem::path& folder) {
 int show_experiment(const std::string& id, const std::string& folder) {
   for (const ExperimentInfo& info : experiment_infos()) {
     if (info.id != id) continue;
-    if (!folder.empty()) kept_experiment(folder, id);  // which refuses what is no reproduction
+    if (!folder.empty()) kept_experiment(folder, id);  // throws if the folder is not a reproduction
     std::cout << fmt::format(
         "{}\n  {}\n  {}, {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n"
         "  sizes: --quick, default, --full; all experiments together take a minute, 20 minutes, 10 hours on 2 "
@@ -172,8 +173,8 @@ int show_experiment(const std::string& id, const std::string& folder) {
   throw Rejection("--show", "found experiment " + id + "; allowed an ID of hamflow list experiments");
 }
 
-/// Libraries that read and write crash where a small allocation fails. The program begins only with so much at hand
-/// that its own large allocations fail first.
+/// Libraries for files crash if a small allocation fails. The program therefore starts only if 64 MB are available:
+/// then its own large allocations fail first, and it can report them.
 void require_memory() {
   constexpr std::size_t at_hand = std::size_t{64} << 20;
   void* const trial = mmap(nullptr, at_hand, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -229,7 +230,7 @@ std::string whole_number(std::string& text, int most) {
   return refused;
 }
 
-/// An option without a value would take the next option for it.
+/// Rejects an option without a value, because CLI11 would take the next option as its value.
 void reject_missing_value(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {
     const CLI::Option* const option = app.get_option_no_throw(argv[i]);
@@ -254,7 +255,7 @@ std::vector<Complaint> complaints_of(const CLI::App& app, const CLI::ParseError&
         {"", 0, 0, name, "found the option " + name + "; allowed " + joined(names) + suggestion(name, names)});
   }
   if (!all.empty()) return all;
-  // CLI11 puts the name of the option before what its validator says.
+  // CLI11 puts the name of the option before the message of its validator.
   const std::string text = error.what();
   const std::size_t colon = text.find(": ");
   const bool has_name = colon != std::string::npos && text.find_first_of(" '\"") > colon;
@@ -290,7 +291,7 @@ void declare(CLI::App& app, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that reaches its limit is an error of writing, as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN);  // then a write beyond the limit of file sizes fails like a write to a full disk
   CLI::App app{"Carry out the experiments of both theses: figures, tables, statements, and verdicts"};
   Options options;
   declare(app, options);

@@ -1,7 +1,7 @@
-// index.html: a summary of verdicts, then a section for each experiment. It holds no times: the same results make the
-// same page, byte for byte, however often the work was interrupted. What does not depend on results is page/page.html.
-// It is one file that needs no other, readable on a telephone, in print without colour, and by a screen reader:
-// verdicts are words, figures have alternative texts.
+// Writes index.html: a summary of verdicts, then a section for each experiment. The page contains no times, so the same
+// results give the same page, byte for byte, even after interruptions. page/page.html has the parts that do not depend
+// on results. The page is a single file that can be read on a phone, in print without colour, and with a screen reader:
+// verdicts are words, and figures have alternative texts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::string escaped_html(const std::string& text) {
   return all;
 }
 
-/// Text as part of an address within double quotes.
+/// Escapes text for an address within double quotes.
 std::string escaped_address(const std::string& text) {
   std::string all;
   for (const char c : text) {
@@ -53,7 +53,7 @@ std::string escaped_address(const std::string& text) {
         break;
       case '\n':
       case '\t':
-        all += ' ';  // which an address would lose
+        all += ' ';  // a browser removes line ends from an address
         break;
       default:
         all += c;
@@ -75,7 +75,7 @@ std::string class_of(ClaimVerdict verdict) {
   return word;
 }
 
-/// Before the word, for print without colour; a screen reader has the word.
+/// A sign before the word of the verdict, for print without colour. Screen readers skip it.
 const char* mark_of(ClaimVerdict verdict) {
   switch (verdict) {
     case ClaimVerdict::holds:
@@ -111,7 +111,7 @@ std::string number_html(const Measured& one) {
   return text;
 }
 
-/// Why it is undecided, in terms of the numbers that stand beside it.
+/// Says why a claim is undecided, with reference to the numbers in its row.
 std::string doubt(const Claim& claim) {
   if (claim.measured.empty()) return "nothing was measured";
   std::string unclear;
@@ -124,7 +124,7 @@ std::string doubt(const Claim& claim) {
   return (is_one_of_many ? "number " + unclear : std::string("it")) + " may lie on either side of the rule";
 }
 
-/// What the verdict says beyond the numbers: these stand in a cell of their own, and who listens hears them once.
+/// The reason of the verdict without its numbers. They have their own cell, so that a screen reader reads them once.
 std::string remark_on(const Claim& claim) {
   const std::string& reason = claim.judgement.reason;
   switch (claim.judgement.verdict) {
@@ -145,7 +145,8 @@ std::string remark_on(const Claim& claim) {
   return reason;
 }
 
-/// Roles are those that a table has anyway: on a narrow screen its rows are blocks, and would lose them.
+/// Writes the table of claims. It repeats the default roles of a table, because narrow screens show rows as blocks, and
+/// these have no roles otherwise.
 std::string claims_html(const std::string& id, const std::vector<Claim>& claims) {
   std::string rows;
   for (const Claim& claim : claims) {
@@ -198,19 +199,19 @@ std::string figures_html(const fs::path& folder, const Kept& kept) {
 
 std::string extent_option(WorkExtent extent) { return extent == WorkExtent::usual ? "" : " --" + name_of(extent); }
 
-/// As a shell takes it.
+/// Quotes a word for the shell.
 std::string quoted(const std::string& word) {
   const bool plain = word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-._/") ==
                      std::string::npos;
   return plain ? word : "'" + word + "'";
 }
 
-/// Commands that carry the scenarios out, as a shell takes them: each, or where there are many the first of a kind and
-/// a loop over the files of the folder.
+/// Returns shell commands that repeat the scenarios: one for each or, if there are many, the first of each kind and a
+/// loop over the files of the folder.
 std::string commands_of(const std::string& id, const std::vector<KeptScenario>& scenarios) {
   constexpr std::size_t few = 8, first = 3;
   const std::string folder = "reproduction/" + id + "/";
-  std::vector<std::pair<std::string, std::vector<std::string>>> kinds;  // a command, and the files that it takes
+  std::vector<std::pair<std::string, std::vector<std::string>>> kinds;  // a command and its files
   for (const KeptScenario& scenario : scenarios) {
     auto kind =
         std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return one.first == scenario.command; });
@@ -261,7 +262,7 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
          escaped_html(info.id) + "</span></summary><pre>" + escaped_html(commands) + "</pre></details>\n";
 }
 
-/// The claims of a verdict that somebody should look at, each a link to its row.
+/// Lists the claims with a verdict, each as a link to its row.
 std::string list_of(const ReproduceReport& report, ClaimVerdict verdict) {
   std::string items;
   int count = 0;
@@ -280,7 +281,7 @@ std::string list_of(const ReproduceReport& report, ClaimVerdict verdict) {
          items + "</ul></details>\n";
 }
 
-/// Contents, then a section for each experiment of a thesis.
+/// Writes the contents and the sections of the experiments of one thesis.
 std::string thesis_html(const ReproduceReport& report, const std::string& thesis, const fs::path& folder) {
   const std::string called = escaped_html(thesis);
   std::string text =
@@ -290,7 +291,7 @@ std::string thesis_html(const ReproduceReport& report, const std::string& thesis
     if (one.info.thesis != thesis) continue;
     text +=
         fmt::format("<li><a href=\"#{0}\">{0}</a> {1}</li>\n", escaped_html(one.info.id), escaped_html(one.info.title));
-    const bool is_short = one.claims.size() <= 2;  // on paper it stands on one page
+    const bool is_short = one.claims.size() <= 2;  // print keeps it on one page
     const std::string section = section_of(one, folder);
     sections += is_short ? "<div class=\"short\">\n" + section + "</div>\n" : section;
   }

@@ -27,7 +27,7 @@ Page orbit_page(const std::string& title, const Trajectory& dots, const Trajecto
   orbit.series.push_back({Ink::exact, "exact", line});
   orbit.series.push_back({Ink::dots, "cg(1,5)", points});
 
-  // E over t and V_eff over r share their axes, as in the thesis.
+  // E over t and V_eff over r share one axis of energies, as in the thesis.
   const double l = dots.q[0][0] * dots.p[0][1] - dots.q[0][1] * dots.p[0][0];
   const double energy = dots.energy.front();
   Curve effective;

@@ -1,5 +1,5 @@
 // The nonlinear double pendulum of [Gross1999, ch. 3]: m = 2, l = 3, g = 9.81, from rest at q = (0, pi/2), in
-// absolute and in relative angles; and the linear solution of the same start, which its figures show as lines.
+// absolute and in relative angles. Figures show the solution of the linear equations from the same start as lines.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ inline constexpr double pendulum_energy_unit = 2 * 9.81 * 3;  // m g l
 inline const Vector<double, 2> pendulum_masses{2, 2};
 inline const Vector<double, 2> pendulum_lengths{3, 3};
 
-/// @param method of [method], as --set takes it; empty: cg(1,5)
+/// @param method the table [method], as --set takes it; empty: cg(1,5)
 inline Trajectory pendulum_run(Study& study, const std::string& name, bool absolute, const std::string& method = {},
                                const std::string& dt = "0.01", long steps = 2600, long every = 1) {
   std::vector<std::string> sets = in_steps(dt, steps, every, method);
@@ -27,7 +27,7 @@ inline Trajectory pendulum_run(Study& study, const std::string& name, bool absol
   return study.run(name, scenario_of("nonlinear_pendulum"), sets);
 }
 
-/// q' of every sample: M(q)^-1 p.
+/// The rates q' = M(q)^-1 p at every sample.
 template <class Problem>
 std::array<std::vector<double>, 2> pendulum_rates(const Problem& problem, const Trajectory& run) {
   std::array<std::vector<double>, 2> rates;

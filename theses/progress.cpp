@@ -14,7 +14,7 @@ namespace hamflow::reproduction {
 
 namespace {
 volatile std::sig_atomic_t asked_to_stop = 0;
-volatile std::sig_atomic_t answered = 0;  // interrupted() was asked since
+volatile std::sig_atomic_t answered = 0;  // 1 once interrupted() has returned true
 volatile std::sig_atomic_t stops_at_once = 0;
 
 extern "C" void note_interrupt(int) {
@@ -27,7 +27,7 @@ extern "C" void note_time(int) {
   const int error = errno;
   stops_at_once = 1;
   constexpr std::string_view text = "note: stopping at the end of this step; Ctrl-C again stops at once\n";
-  if (answered == 0 && write(STDERR_FILENO, text.data(), text.size()) < 0) answered = 1;  // nobody reads it
+  if (answered == 0 && write(STDERR_FILENO, text.data(), text.size()) < 0) answered = 1;  // uses the result of write
   errno = error;
 }
 
@@ -45,7 +45,7 @@ void catch_interrupts() {
   handle(SIGTERM, note_interrupt, 0);
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);
-  if (before.sa_handler != SIG_IGN) handle(SIGHUP, note_interrupt, 0);  // nohup ignores it on purpose
+  if (before.sa_handler != SIG_IGN) handle(SIGHUP, note_interrupt, 0);  // nohup sets SIG_IGN, which has to stay
 }
 
 bool interrupted() {

@@ -1,4 +1,4 @@
-// Ctrl-C, and how far the work has come.
+// Handles Ctrl-C, and shows progress.
 #pragma once
 
 #include <chrono>
@@ -6,12 +6,12 @@
 
 namespace hamflow::reproduction {
 
-/// From here on INT, TERM and HUP ask the program to stop: interrupted() becomes true. A second one, a second later,
-/// ends it at once with status 130.
+/// After this call, the signals INT, TERM and HUP make interrupted() return true. A further signal, a second later or
+/// more, ends the program at once with status 130.
 void catch_interrupts();
 bool interrupted();
 
-/// A bar on a terminal; elsewhere one note, once the work has taken 20 seconds. All on stderr.
+/// Shows progress on stderr: a bar on a terminal, else a single note once the work has taken 20 seconds.
 class Progress {
  public:
   explicit Progress(bool quiet);

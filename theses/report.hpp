@@ -1,4 +1,4 @@
-// What is told of a reproduction: verdicts.json, a table for people, and the page index.html.
+// The reports of a reproduction: verdicts.json, a text for the terminal, and the page index.html.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace hamflow::reproduction {
 
-/// {status, claims, verdicts {VERDICT: n}, experiments [{id, size, status, message}]}: no times, so that it does not
-/// change.
+/// Returns {status, claims, verdicts {VERDICT: n}, experiments [{id, size, status, message}]}. It contains no times, so
+/// that equal results give equal files.
 std::string verdicts_json(const ReproduceReport& report);
-/// How many of each verdict, and every claim that does not hold.
+/// Returns the number of claims with each verdict, and every claim that does not hold.
 std::string verdicts_text(const ReproduceReport& report);
-/// It shows the figures that stand beside it in the folder.   @param folder in which the experiments are
+/// Returns the page, which shows the figures in the folder.   @param folder the folder of the reproduction
 std::string page_of(const ReproduceReport& report, const std::filesystem::path& folder);
 
 }  // namespace hamflow::reproduction

@@ -30,7 +30,7 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
-/// Each experiment has a folder of its own, which is replaced when it is carried out again.
+/// The output directory. Each experiment has its own folder in it, which is replaced when the experiment runs again.
 const FolderKind& reproduction_folder() {
   static const FolderKind kind{
       .name = "reproduction", .signs = {"reproduction"}, .files = {}, .resumes_from = "reproduction"};
@@ -51,8 +51,9 @@ WorkFolder prepared(const ReproduceRequest& request) {
   return folder;
 }
 
-/// A folder of an experiment holds nothing but its own files: it can be made anew. One without the mark is as a kill
-/// leaves it, empty or with half a mark, or it is somebody else's; the mark is therefore the last to go.
+/// Removes the folder of an experiment. The file mark_of_begin shows that the folder belongs to hamflow. A folder
+/// without it may be removed if it is empty or has a partly written mark, as after a kill. The mark is therefore
+/// removed last.
 void clear(const fs::path& folder) {
   std::error_code error;
   if (is_there(folder) && !is_there(folder / mark_of_begin)) {
@@ -66,7 +67,7 @@ void clear(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().filename() != mark_of_begin) all.push_back(entry.path());
   }
-  all.push_back(folder);  // with the mark
+  all.push_back(folder);  // removes the mark, too
   for (const fs::path& one : all) {
     fs::remove_all(one, error);
     if (error) throw FileError("cannot remove " + one.string() + ": " + error.message());
@@ -75,7 +76,7 @@ void clear(const fs::path& folder) {
 
 fs::path folder_of(const fs::path& reproduction, const std::string& id) { return reproduction / "reproduction" / id; }
 
-/// An experiment that is done in its folder, of whichever size.
+/// Reads a finished experiment of any size from its folder.
 std::optional<ExperimentReport> done_in(const fs::path& folder, const Experiment& experiment) {
   auto done = kept_of(experiment, folder);
   if (!done) return {};
@@ -99,8 +100,8 @@ std::string contents_of(const fs::path& file) {
   return text.str();
 }
 
-/// The folder of an experiment that is to be carried out: new, or as a kill of the same experiment has left it, with
-/// long runs that go on.
+/// Prepares the folder of an experiment. If the same experiment was killed, the folder is kept, so that long runs
+/// resume.
 void begin_in(const fs::path& folder, const std::string& print, bool resume) {
   const fs::path mark = folder / mark_of_begin;
   if (resume && contents_of(mark) == print) return;
@@ -121,7 +122,7 @@ class Run {
     for (std::size_t i = 1; i < number_of_threads(); ++i) {
       try {
         others.emplace_back([this] { work(); });
-      } catch (const std::exception&) {  // the system gives no more: fewer do the same
+      } catch (const std::exception&) {  // the system has no more threads; fewer give the same results
         shared_.go_without(number_of_threads() - i);
         break;
       }
@@ -143,8 +144,8 @@ class Run {
     if (pulse_ && !pulse_(done_, reports_.size())) stopped_ = true;
     return !stopped_;
   }
-  /// Takes the next experiment until there is none, the last first: long runs are claims of the text, which stand at
-  /// the end, and no thread is left with one. Results stand at their places, whoever computed them.
+  /// Runs experiments until none is left, in reverse order: the long ones are at the end of the list, and should not
+  /// start last. The order of the reports does not depend on threads.
   void work() {
     const figures::WhileDrawing asks([this] { return go_on(); });
     for (std::size_t taken = next_++; taken < reports_.size(); taken = next_++) {
@@ -154,7 +155,7 @@ class Run {
       } catch (const std::bad_alloc&) {
         out_of_memory_ = true;
         stopped_ = true;
-      } catch (const std::exception& error) {  // of files: nothing more can be kept
+      } catch (const std::exception& error) {  // files cannot be written, so no further result can be kept
         const std::lock_guard one(mutex_);
         if (trouble_.empty()) trouble_ = error.what();
         stopped_ = true;
@@ -166,19 +167,19 @@ class Run {
   ExperimentReport carried_out(const Experiment& experiment) {
     ExperimentReport report{.info = experiment.info, .status = "done", .extent = request_.extent};
     const fs::path folder = folder_of(request_.folder, experiment.info.id);
-    const fs::path beside = folder.string() + ".next";  // a smaller size, which stays until the larger one is done
+    const fs::path beside = folder.string() + ".next";  // for a larger size, so that a smaller result is kept meanwhile
     const std::string print = fingerprint(experiment, request_.extent);
     bool keeps_smaller = false;
     if (request_.existing == Existing::resume) {
       auto done = done_in(folder, experiment);
-      // A kill came when the larger size was about to take the place.
+      // The program was killed before the larger size replaced the smaller one.
       if (!done && (!is_there(folder) || done_in(beside, experiment)) && is_there(beside)) {
         clear(folder);
         move(beside, folder);
         done = done_in(folder, experiment);
       }
       keeps_smaller = done && done->extent < request_.extent;
-      // What is done in a larger size is done in this one, too.
+      // A result of a larger size serves for this size, too.
       if (done && !keeps_smaller) return *std::move(done);
     }
     if (!go_on()) {
@@ -206,7 +207,7 @@ class Run {
       report.status = "interrupted";
     } catch (const FileError&) {
       throw;
-    } catch (const std::bad_alloc&) {  // says nothing about the experiment
+    } catch (const std::bad_alloc&) {  // not a failure of the experiment
       throw;
     } catch (const std::exception& error) {
       report.status = "failed";
@@ -232,13 +233,13 @@ class Run {
     return report;
   }
 
-  /// With the experiments that are done in the folder, asked for or not.
+  /// Adds the experiments that are finished in the folder to the requested ones.
   ReproduceReport with_others(const ReproduceReport& asked) const {
     ReproduceReport whole{.status = asked.status};
     for (const Experiment& experiment : all_experiments()) {
       const auto same = [&](const ExperimentReport& one) { return one.info.id == experiment.info.id; };
       const auto found = std::find_if(asked.experiments.begin(), asked.experiments.end(), same);
-      // What was not begun may be there in a smaller size.
+      // An experiment that did not run may be stored in a smaller size.
       if (found != asked.experiments.end() && found->status == "done") {
         whole.experiments.push_back(*found);
       } else if (auto done = done_in(folder_of(request_.folder, experiment.info.id), experiment)) {

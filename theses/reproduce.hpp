@@ -1,5 +1,5 @@
-// The experiments of the two theses, carried out again: figures, tables and statements, each judged by a rule. This is
-// what `hamflow reproduce` calls.
+// Repeats the figures, tables and statements of the two theses as experiments, and judges each by a rule. `hamflow
+// reproduce` calls these functions.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace hamflow {
 
-/// How much work an experiment may take: all of them together about a minute, 20 minutes, 10 hours on two processors.
+/// The length of the runs. All experiments together take about a minute, 20 minutes or 10 hours on two processors.
 enum class WorkExtent { quick, usual, full };
 
 struct ExperimentInfo {
@@ -23,10 +23,10 @@ struct ExperimentInfo {
   std::string title;
 };
 
-/// In the order of the theses.
+/// All experiments, in the order of the theses.
 std::vector<ExperimentInfo> experiment_infos();
-/// The experiments that these words name: an ID, gross, sonnleitner, all; each once.
-/// @throws Error for an unknown word, with what is allowed and the nearest ID
+/// Returns the IDs that the words name, each once. A word is an ID, "gross", "sonnleitner" or "all".
+/// @throws Error for an unknown word, with the allowed words and the nearest ID
 std::vector<std::string> named_experiments(const std::vector<std::string>& words);
 
 struct ReproduceRequest {
@@ -34,36 +34,37 @@ struct ReproduceRequest {
   WorkExtent extent = WorkExtent::usual;
   std::filesystem::path folder;
   Existing existing = Existing::refuse;
-  int threads = 1;  // verdicts do not depend on it
+  int threads = 1;  // does not change verdicts
 };
 
 struct ExperimentReport {
   ExperimentInfo info;
   std::string status;   // "done", "failed", "interrupted"
-  std::string message;  // of one that could not be computed
+  std::string message;  // why it failed
   std::vector<Claim> claims;
   WorkExtent extent = WorkExtent::usual;
   double seconds = 0;
-  bool was_done = false;  // before, and not again
+  bool was_done = false;  // whether the result of an earlier reproduction was kept
 };
 
 struct ReproduceReport {
-  std::string status;                         // "done"; "failed": an experiment could not be computed; "interrupted"
-  std::vector<ExperimentReport> experiments;  // those asked for
-  std::string json;  // of them; verdicts.json and the page have all experiments that are done in the folder
-  std::string text;  // for people
+  std::string status;                         // "done"; "failed": an experiment failed; "interrupted"
+  std::vector<ExperimentReport> experiments;  // the requested ones
+  std::string json;  // the requested experiments; verdicts.json and the page contain all finished ones of the folder
+  std::string text;  // for the terminal
 };
 
-/// Carries the experiments out and writes the folder: index.html, verdicts.json, and a folder for each experiment with
-/// scenarios, curves and figures.
-/// @param pulse called several times a second with the experiments done; returns false to stop; what is done is kept
-/// @throws FileError when the folder cannot be used
+/// Runs the experiments and writes the output directory: index.html, verdicts.json, and a folder for each experiment
+/// with scenarios, curves and figures.
+/// @param pulse called several times a second with the number of finished experiments; it returns false to stop.
+/// Finished experiments are kept.
+/// @throws FileError if the output directory cannot be used
 ReproduceReport reproduce(const ReproduceRequest& request,
                           const std::function<bool(std::size_t done, std::size_t all)>& pulse = {});
 
-/// The experiment as it was carried out into the folder of a reproduction, in the largest size that is there whole;
-/// nullopt if it was not run, or was run by another version of it.   @throws Error for an unknown ID
-/// @throws FileError where the folder is not that of a reproduction
+/// Reads an experiment from the folder of a reproduction, in the largest size that is complete there. Returns nullopt
+/// if the experiment was not run, or was run by another version.   @throws Error for an unknown ID
+/// @throws FileError if the folder is not a reproduction
 std::optional<ExperimentReport> kept_experiment(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// The scenarios of the experiments stand as TOML in scenarios/, which the build puts into the program.
+// The scenarios of the experiments. They are TOML files in scenarios/, which the build embeds into the program.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 
 namespace hamflow::reproduction {
 
-/// The text of scenarios/NAME.toml with some of its keys changed.   @param sets PATH=VALUE, as --set takes them
-/// @throws Error where there is no such file, or the changed scenario is refused
+/// Returns the text of scenarios/NAME.toml with some keys changed.   @param sets PATH=VALUE, as --set takes them
+/// @throws Error if there is no such file, or if the changed scenario is wrong
 std::string scenario_of(const std::string& name, const std::vector<std::string>& sets = {});
 
-/// Changes of [run], with dt a number expression, and of the whole of [method] where one is given.
+/// Returns the changes that set keys of [run], and the table [method] if one is given. @param dt a number expression
 std::vector<std::string> in_steps(const std::string& dt, long steps, long every = 1, const std::string& method = {});
 
-/// Taylor series to rounding: what other methods are compared with.
+/// The method of reference solutions: Taylor series, exact up to rounding.
 inline const std::string by_series = "method={ name = \"taylor\", tolerance = 1e-15 }";
 
 }  // namespace hamflow::reproduction

@@ -1,5 +1,5 @@
-// Pieces of one experiment's work, for the threads that have no experiment left to take: the longest experiment would
-// else end alone.
+// Shares the work of one experiment with threads that have no experiment left. Without it, the longest experiment would
+// run on a single thread at the end.
 #pragma once
 
 #include <condition_variable>
@@ -13,17 +13,18 @@ namespace hamflow::reproduction {
 
 class SharedWork {
  public:
-  /// @param threads that each call help() once, when they have no experiment left
+  /// @param threads the number of threads; each calls help() once, when it has no experiment left
   explicit SharedWork(std::size_t threads) : busy_(threads) {}
 
-  /// Calls piece(0) to piece(count - 1), each once, on this thread and on those that help, in any order, and returns
-  /// when all have returned.   @throws what the first piece that failed threw; pieces not begun are left out
+  /// Calls piece(0) to piece(count - 1) once each, in any order, on this thread and on threads in help(). Returns when
+  /// all calls have returned.   @throws the exception of the first piece that failed; it skips pieces that have not
+  /// started
   void each(std::size_t count, const std::function<void(std::size_t)>& piece);
 
-  /// So many of the threads were never started.
+  /// Reports that `threads` threads could not be started.
   void go_without(std::size_t threads);
 
-  /// Takes pieces until every thread has come here.
+  /// Works on pieces until every thread has called help().
   void help();
 
  private:
@@ -38,7 +39,7 @@ class SharedWork {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::list<Job*> jobs_;  // with pieces that are not begun, or are not done
+  std::list<Job*> jobs_;  // jobs with pieces that have not finished
   std::size_t busy_;
 };
 

@@ -15,22 +15,22 @@ namespace hamflow::reproduction {
 
 namespace slimming {
 
-constexpr double unseen = 0.05;  // of a figure some 300 units wide: a tenth of a screen's dot where it fills the page
+constexpr double unseen = 0.05;  // a figure is some 300 units wide: a tenth of a pixel if it fills the page
 
-constexpr double across = 2.25;  // a disc of gnuplot's: radius 1, and a stroke of 0.25 around it
+constexpr double across = 2.25;  // the diameter of gnuplot's disc: radius 1, and a stroke of width 0.25
 
 struct Point {
   double x, y;
 };
 
-/// How far a point is from the chord a to b.
+/// The distance of a point from the segment from a to b.
 double distance(Point z, Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const double part = square > 0 ? std::clamp(((z.x - a.x) * dx + (z.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
   return std::hypot(z.x - a.x - part * dx, z.y - a.y - part * dy);
 }
 
-/// The points that a line needs.   [DouglasPeucker1973]
+/// Simplifies a line to the points that it needs.   [DouglasPeucker1973]
 std::vector<Point> needed(const std::vector<Point>& line) {
   std::vector<bool> stays(line.size(), false);
   stays.front() = stays.back() = true;
@@ -56,7 +56,8 @@ std::vector<Point> needed(const std::vector<Point>& line) {
   return some;
 }
 
-/// In units of 1/100, as gnuplot writes them: sums of rounded differences would drift.
+/// Rounds to gnuplot's unit of 1/100. Differences of these integers are exact, so that relative coordinates do not
+/// accumulate rounding errors.
 long hundredths(double x) { return std::lround(100 * x); }
 std::string number(long of_hundredths) {
   const long whole = std::labs(of_hundredths);
@@ -72,7 +73,8 @@ std::string pair_of(long dx, long dy) {
   return number(dx) + (second[0] == '-' ? "" : " ") + second;
 }
 
-/// "41.16,205.15 L45.16,205.15": absolute lines and nothing else, or nothing.
+/// Reads a path of absolute lines, such as "M41.16,205.15 L45.16,205.15", with a flag for closed ones. Returns nullopt
+/// if the path contains anything else.
 std::optional<std::vector<std::pair<std::vector<Point>, bool>>> lines_in(std::string_view d) {
   std::vector<std::pair<std::vector<Point>, bool>> lines;
   const std::string text(d);
@@ -121,7 +123,7 @@ std::string slim_path(std::string_view d) {
   return all;
 }
 
-/// A disc of gnuplot's: where, how large, its colour.
+/// A disc of gnuplot, with its place, size and colour.
 struct Disc {
   Point at;
   std::string scale, colour;
@@ -145,7 +147,7 @@ std::optional<Disc> disc_in(std::string_view element) {
               std::string(between(element, "color='", "'"))};
 }
 
-/// Discs are dots of a line with round ends, which goes nowhere.
+/// Draws discs as the round ends of lines of length 0.
 std::string path_of(const std::vector<Disc>& discs) {
   std::string all = fmt::format("<path fill='none' stroke-linecap='round' stroke='{}' stroke-width='{:g}' d='",
                                 discs[0].colour, across * std::strtod(discs[0].scale.c_str(), nullptr));
@@ -160,7 +162,7 @@ std::string path_of(const std::vector<Disc>& discs) {
   return all + "'/>\n";
 }
 
-/// Definitions of symbols that nothing refers to.
+/// Removes definitions of symbols that are not used.
 std::string without_unused(const std::string& svg) {
   std::string all;
   for (std::size_t at = 0; at < svg.size();) {
@@ -200,7 +202,7 @@ std::string slim_svg(const std::string& svg) {
       discs.push_back(*disc);
       continue;
     }
-    // A path may go over several lines.
+    // A path may extend over several lines of the file.
     const std::size_t d = line.find(" d='M");
     while (d != line.npos && line.find('\'', d + 4) == line.npos && at < svg.size()) {
       const std::size_t next = std::min(svg.find('\n', at), svg.size() - 1) + 1;
@@ -214,7 +216,7 @@ std::string slim_svg(const std::string& svg) {
     all += line;
   }
   put_discs();
-  // Twice: symbols refer to each other.
+  // Symbols refer to each other, so a removed one can make another unused.
   return without_unused(without_unused(without_unused(all)));
 }
 

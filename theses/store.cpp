@@ -30,13 +30,13 @@ ClaimVerdict verdict_in(const std::string& word) {
   throw Error("no verdict: " + word);
 }
 
-/// In the order of Grounds.
+/// The names of Grounds, in the order of the enumeration.
 constexpr const char* names_of_grounds[] = {"program", "ways", "identity"};
 
-/// What judge() needs of a claim beside its numbers, of which people read the rule's text.
+/// Adds the limits of the rule and the grounds to the JSON of a claim, so that judge() can check the stored verdict.
 Json json_with_bounds(const Claim& claim) {
   Json all = json_of(claim);
-  all["low"] = claim.rule.low;  // null: none
+  all["low"] = claim.rule.low;  // an infinite limit is stored as null
   all["high"] = claim.rule.high;
   all["grounds"] = names_of_grounds[static_cast<int>(claim.grounds)];
   return all;
@@ -52,7 +52,7 @@ Claim claim_in(const Json& json) {
   for (const Json& one : json.at("measurements")) {
     claim.measured.push_back({number_in(one.at("value")), number_in(one.at("uncertainty")), one.at("how")});
   }
-  // What was kept before bounds were is as good for the page.
+  // Older files have no limits; the page does not need them.
   if (const Json low = json.value("low", Json()); low.is_number()) claim.rule.low = low;
   if (const Json high = json.value("high", Json()); high.is_number()) claim.rule.high = high;
   const auto grounds = std::find(std::begin(names_of_grounds), std::end(names_of_grounds),
@@ -74,14 +74,16 @@ std::string contents_of(const fs::path& file) {
   return text.str();
 }
 std::string digest(const std::string& text) { return fmt::format("{:016x}", fnv1a(std::as_bytes(std::span(text)))); }
-/// Of all that stands beside it but the seconds: equal twice. What was kept before there were digests has none.
+/// The key of the digest of all other entries of result.json except the seconds, which differ between equal runs. Older
+/// files have no digest.
 constexpr const char* own_digest = "fnv1a";
 std::string digest_of_rest(Json all) {
   all.erase(own_digest);
   all.erase("seconds");
   return digest(text_of(all));
 }
-/// The digest of each other file. Figures name the day on which they were drawn, hence a file of its own.
+/// The file with the digest of each other file. It is separate from result.json, because figures contain the date and
+/// result.json has to be the same for equal results.
 constexpr const char* digests_of_files = "files.json";
 bool is_as_written(const fs::path& folder, const Json& all) {
   if (!all.contains(own_digest)) return true;
@@ -124,7 +126,7 @@ void write_table(const fs::path& file, const TextTable& table) {
   write_text(file, text);
 }
 
-/// A label without the marks of enhanced text, as the name of a column.
+/// Makes a column name from a label, without the marks of enhanced text.
 std::string plain_label(const std::string& label) {
   std::string name;
   for (std::size_t i = 0; i < label.size(); ++i) {
@@ -139,7 +141,7 @@ std::string plain_label(const std::string& label) {
   return name;
 }
 
-/// What the experiment keeps; of one that keeps no curve those of its figures, as they are drawn.
+/// The curves that the experiment stores or, if it stores none, the curves of its figures.
 std::vector<Curves> curves_of(const Study& study) {
   std::vector<Curves> all(study.curves().begin(), study.curves().end());
   if (!all.empty()) return all;
@@ -258,7 +260,7 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
     }
     kept.seconds = all.at("seconds");
     return kept;
-  } catch (const std::exception&) {  // of another form: carried out again
+  } catch (const std::exception&) {  // an unknown format: the experiment runs again
     return {};
   }
 }

@@ -1,4 +1,4 @@
-// What is kept of an experiment in its folder: result.json with its claims, scenarios, curves as CSV and HDF5, figures.
+// Writes and reads the folder of an experiment: result.json with claims, scenarios, curves as CSV and HDF5, figures.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace hamflow::reproduction {
 
-/// What the report needs of an experiment that is done.
+/// The stored results of an experiment that the report needs.
 struct Kept {
   std::vector<Claim> claims;
   std::vector<std::string> notes;
   std::vector<TextTable> tables;
-  std::vector<KeptScenario> scenarios;  // without their texts, which are files of their own
+  std::vector<KeptScenario> scenarios;  // without texts, which are separate files
   struct Drawing {
     std::string name, caption, in_words;
   };
@@ -25,26 +25,26 @@ struct Kept {
 };
 
 nlohmann::ordered_json json_of(const Claim& claim);
-/// Text of a document; numbers that are none become null, broken UTF-8 is replaced.
+/// Writes JSON as text. NaN and infinite numbers become null; invalid UTF-8 is replaced.
 std::string text_of(const nlohmann::ordered_json& json);
 
-/// What decides whether an experiment has to be carried out again: version, extent, and the text of its file.
+/// Version, extent and source text of an experiment. If the fingerprint has changed, the experiment runs again.
 std::string fingerprint(const Experiment& experiment, WorkExtent extent);
 std::string fingerprint_of(const std::string& id, WorkExtent extent);
-/// "quick", "default", "full".
+/// Returns "quick", "default" or "full".
 std::string name_of(WorkExtent extent);
-/// What is done of an experiment in its folder, of whichever extent.
+/// Stored results and their extent.
 struct KeptOf {
   Kept kept;
   WorkExtent extent;
 };
 std::optional<KeptOf> kept_of(const Experiment& experiment, const std::filesystem::path& folder);
 
-/// Writes everything, figures as SVG, PDF and PNG; result.json is the last, so that what a kill interrupts is not taken
-/// for done.   @throws FileError
+/// Writes all files of an experiment, with figures as SVG, PDF and PNG. result.json is written last, so that the folder
+/// of a killed program does not count as finished.   @throws FileError
 void keep(const std::filesystem::path& folder, const Study& study, const std::string& fingerprint, double seconds);
-/// Nothing where the folder holds no such result, one of another fingerprint, one whose verdicts do not follow from its
-/// numbers, or one of whose files is missing or not as it was written.
+/// Reads stored results. Returns nullopt if there are none, if the fingerprint differs, if a verdict does not follow
+/// from its numbers, or if a file is missing or was changed.
 std::optional<Kept> kept_in(const std::filesystem::path& folder, const std::string& fingerprint);
 
 }  // namespace hamflow::reproduction

@@ -10,7 +10,7 @@ namespace hamflow::reproduction {
 
 namespace {
 
-constexpr std::int64_t worth_a_checkpoint = 5000000;  // steps: some seconds
+constexpr std::int64_t worth_a_checkpoint = 5000000;  // so many steps take some seconds
 
 class Sampler final : public Observer {
  public:
@@ -102,7 +102,7 @@ Trajectory Study::try_run(const std::string& name, const std::string& toml, cons
   Trajectory trajectory;
   Sampler sampler(trajectory, scenario.record_every, scenario.steps);
   RunSettings settings;
-  settings.samples = false;  // the sampler keeps them
+  settings.samples = false;  // the Sampler stores them instead
   settings.observers = {&sampler};
   settings.pulse = [this](std::int64_t) { return !go_on_ || go_on_(); };
   if (scenario.steps >= worth_a_checkpoint) {
@@ -110,7 +110,8 @@ Trajectory Study::try_run(const std::string& name, const std::string& toml, cons
     settings.existing = std::filesystem::exists(settings.folder) ? Existing::resume : Existing::refuse;
   }
   trajectory.report = hamflow::run(scenario, settings);
-  if (trajectory.report.was_complete) {  // by a run whose experiment was killed later: its samples are not known here
+  // The run finished before its experiment was killed. Its samples were not stored, so it has to run again.
+  if (trajectory.report.was_complete) {
     settings.existing = Existing::replace;
     trajectory = {};
     trajectory.report = hamflow::run(scenario, settings);

@@ -1,4 +1,4 @@
-// What an experiment has at hand: runs of scenarios, claims, curves and figures.
+// The interface for experiments: they run scenarios, and add claims, curves and figures.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +16,15 @@
 
 namespace hamflow::reproduction {
 
-/// The samples of a run and what it came to.
+/// The samples and the report of a run.
 struct Trajectory {
   std::vector<std::int64_t> step;
   std::vector<double> t;
   std::vector<std::vector<double>> q;  // q[k][i]: coordinate i of sample k
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
-  std::vector<std::vector<double>> invariants;  // all components of all invariants, of each sample
-  // Of the step before each sample, where method.diagnostics asks for them; else, and of the start, not a number.
+  std::vector<std::vector<double>> invariants;  // invariants[k]: all components of all invariants at sample k
+  // Diagnostics of the step before each sample. They are NaN at the start, and without method.diagnostics.
   std::vector<double> iterations;
   std::vector<double> condition_tangent;
   std::vector<double> determinant_tangent;
@@ -32,7 +32,7 @@ struct Trajectory {
   RunReport report;
 
   std::size_t size() const { return t.size(); }
-  /// One coordinate, or momentum, at every sample.
+  /// Returns one coordinate, or one momentum, at every sample.
   std::vector<double> coordinate(std::size_t i) const;
   std::vector<double> momentum(std::size_t i) const;
 };
@@ -45,7 +45,7 @@ struct Drawn {
   figures::Page page;
 };
 
-/// Rows of text beneath headings, for what is no curve.
+/// A table of texts with headings.
 struct TextTable {
   std::string name;
   std::string caption;
@@ -56,15 +56,15 @@ struct TextTable {
 struct KeptScenario {
   std::string name;
   std::string text;
-  std::string command = "run";  // of hamflow, which carries it out again
+  std::string command = "run";  // the command of hamflow that repeats it
 };
 
-/// Ctrl-C: what is not done is done at the next time.
+/// Thrown after Ctrl-C. The next reproduction with --resume runs what is missing.
 struct Stopped {};
 
 class Study {
  public:
-  /// @param folder of the experiment, in which long runs keep their checkpoints
+  /// @param go_on returns false to stop   @param folder the folder of the experiment, also for checkpoints of long runs
   Study(ExperimentInfo info, WorkExtent extent, std::function<bool()> go_on, std::filesystem::path folder,
         SharedWork& others)
       : info_(std::move(info)),
@@ -80,22 +80,24 @@ class Study {
   const ExperimentInfo& info() const { return info_; }
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Runs a scenario and keeps its text under that name. Its samples are those that `run.record_every` asks for. A run
-  /// of millions of steps has a folder of its own, NAME.run, from which it goes on after a kill.
-  /// @param sets PATH=VALUE   @throws Error where the scenario is refused, another one has that name, or the run fails
+  /// Runs a scenario and stores its text under `name`. Samples are taken every `run.record_every` steps. A run of
+  /// millions of steps has a separate folder, NAME.run, from which it resumes after the program was killed.
+  /// @param sets PATH=VALUE
+  /// @throws Error if the scenario is wrong, if another scenario has this name, or if the run fails
   Trajectory run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
-  /// The same for an experiment that asks how far a run comes: one that fails says so in its report.
+  /// As run(), but a run that fails returns its samples, and its report says why. For experiments that measure how long
+  /// a run succeeds.
   Trajectory try_run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
 
-  /// There and back, and keeps the scenario's text under that name.
-  /// @param sets PATH=VALUE   @throws Error where the scenario is refused; what fails says so in its report
+  /// Makes a reversal and stores the text of the scenario under `name`. If the reversal fails, its report says why.
+  /// @param sets PATH=VALUE   @throws Error if the scenario is wrong
   ReversalReport reverse(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
 
   struct Statement {
     std::string name;
     std::string statement;
     std::string printed;
-    std::string page{};  // of the experiment, where empty
+    std::string page{};  // empty: the page of the experiment
   };
   void claim(const Statement& statement, const Rule& rule, std::vector<Measured> measured,
              Grounds grounds = Grounds::program, const std::string& decided_by = {});
@@ -106,19 +108,18 @@ class Study {
   void draw(std::string name, std::string caption, figures::Page page) {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
-  /// A scenario that was carried out by other means than run(); once, where it is by that name and text already.
-  /// @throws Error where another one has that name
+  /// Stores a scenario that was not run with run(). The same scenario may be stored again.
+  /// @throws Error if another scenario has this name
   void keep_scenario(std::string name, std::string text, std::string command = "run");
   void note(std::string text) { notes_.push_back(std::move(text)); }
-  /// Of work of the experiment's own, for what asks rather than being told.
+  /// Returns false if the program has to stop.
   bool goes_on() const { return !go_on_ || go_on_(); }
-  /// Between pieces of work of the experiment's own.   @throws Stopped
+  /// Experiments call this between parts of their own computations.   @throws Stopped if the program has to stop
   void breathe() const {
     if (!goes_on()) throw Stopped{};
   }
 
-  /// Pieces of work of the experiment's own that do not depend on each other, also on threads that have nothing else to
-  /// do. No piece calls what keeps something here.
+  /// Calls piece(0) to piece(count - 1), also on idle threads. Pieces are independent, and do not change this Study.
   void each(std::size_t count, const std::function<void(std::size_t)>& piece) const { others_.each(count, piece); }
 
   const std::vector<Claim>& claims() const { return claims_; }
@@ -129,9 +130,9 @@ class Study {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  /// @throws Error where another scenario has that name
+  /// @throws Error if another scenario has this name
   bool has_scenario(const std::string& name, const std::string& text, const std::string& command) const;
-  /// @throws Error where it is refused
+  /// @throws Error if the scenario is wrong
   Scenario read(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) const;
 
   ExperimentInfo info_;

@@ -11,38 +11,38 @@ namespace hamflow::reproduction {
 
 struct TubeRun {
   double eps = -0.6;
-  std::string v1 = "0";  // start velocity of the light body; that of the heavy one is v2
+  std::string v1 = "0";  // velocity of the light body at the start; v2 is the velocity of the heavy one
   std::string rule = "reject";
   std::string method = "stv4";
   std::string dt = "0.01";
   std::int64_t steps = 0;
-  std::int64_t record_every = 0;  // 0: the end only
+  std::int64_t record_every = 0;  // 0: only the end
   std::string v2 = "1";
 };
-/// "-0.6 v=(6,1) reject stv4 0.01"
+/// Returns a name such as "-0.6 v=(6,1) reject stv4 0.01".
 std::string name_of(const TubeRun& run);
 std::string tube_scenario(const TubeRun& run);
-/// @param start as in problem.initial, e.g. "q = [0.01, 1.1], v = [0, 1]"
+/// @param start the keys of problem.initial, e.g. "q = [0.01, 1.1], v = [0, 1]"
 std::string tube_scenario_from(const TubeRun& run, const std::string& start);
 
-/// What came of a member of an ensemble.
+/// The result of a member of an ensemble.
 struct TubeMember {
   bool done = false;
   double kinetic1 = 0;  // at the start
   double kinetic2 = 0;
-  double change1 = 0;  // mean over every step minus that of the start
+  double change1 = 0;  // mean of kinetic1 over all steps, minus its value at the start
   double change2 = 0;
-  double energy_error = 0;  // the largest, of the scale
+  double energy_error = 0;  // the largest, divided by the scale
   std::vector<double> q;    // at the end
   std::vector<double> p;
 };
-/// @param varied as in SweepRequest   @throws Stopped
+/// Runs an ensemble.   @param varied see SweepRequest   @throws Stopped
 std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::vector<std::string>& varied);
-/// As many steps more, from where the members ended; their places are kept, and those that were not done are not.
-/// Changes are against the start of these steps.   @throws Stopped
+/// Continues the members of an ensemble for as many steps again. The order of the members is kept. Members that were
+/// not done stay so. Changes are relative to the start of the continuation.   @throws Stopped
 std::vector<TubeMember> continued(Study& study, const TubeRun& run, const std::vector<TubeMember>& members);
 
-/// Mean and standard deviation of a number of the members that are done.
+/// The mean and the standard deviation of numbers, one for each member that is done.
 struct Spread {
   double mean = 0;
   double deviation = 0;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_dots = 400;
 const std::string exact_colour = "#d55e00";
 
-/// All but equal numbers are shown as the constant that they are.
+/// Fits an axis. If the values are almost equal, its range is so large that they look constant.
 Axis axis_of(Extent range) {
   if (range.high - range.low < 1e-3 * range.largest()) {
     const double size = range.largest();

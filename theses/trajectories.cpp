@@ -78,7 +78,7 @@ std::vector<double> extrema(const std::vector<double>& t, const std::vector<doub
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
     if ((rate[i] < 0) == (rate[i + 1] < 0)) continue;
     const double h = t[i + 1] - t[i];
-    // x(s) on [0, 1] with x' = rate h; its derivative is a quadratic with a sign change.
+    // The interpolant x(s) on [0, 1] has x' = rate h at both ends. Its derivative is a quadratic that changes its sign.
     const double d0 = rate[i] * h, d1 = rate[i + 1] * h, rise = x[i + 1] - x[i];
     const double a = d0 + d1 - 2 * rise, b = 3 * rise - 2 * d0 - d1;
     double low = 0, high = 1;

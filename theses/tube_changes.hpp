@@ -1,5 +1,5 @@
-// Mean changes of the kinetic energies of the T-tube over ensembles of starts, and how far one other start may be from
-// them: for the table of [Sonnleitner2010], pages 99 and 100.
+// Mean changes of the kinetic energies of the T-tube over ensembles of starts, and the expected distance of one further
+// start from them, for the table of [Sonnleitner2010], pages 99 and 100.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,8 @@
 
 namespace hamflow::reproduction::t_tube_table {
 
-/// A mean change over the starts of an ensemble, and how far it moved in the later half of the runs.
+/// The mean change over the starts of an ensemble. `moved` is how much the mean still changes in the second half of the
+/// runs.
 struct Change : Spread {
   double moved = 0;
 };
@@ -23,18 +24,18 @@ struct Change : Spread {
 struct Changes {
   Change first, second, both;
   int left_out = 0;
-  double energy_error = 0;  // the largest of those that count
+  double energy_error = 0;  // the largest of the runs that are not left out
 };
 
 inline constexpr double energy_of_heavy = 50;  // v2 = 1
 
-/// Means of both kinetic energies over so many blocks, minus those of the start.
+/// The means of both kinetic energies over the first `blocks` blocks, minus their values at the start.
 inline std::pair<double, double> mean_changes(const TubeWatch& one, std::size_t blocks) {
   const auto mean = [&](const std::vector<double>& x) { return spread_of({x.data(), x.data() + blocks}).mean; };
   return {mean(one.blocks) - one.start.v1 * one.start.v1 / 2, mean(one.heavy) - energy_of_heavy};
 }
 
-/// A few percent of H are as much as the changes are: such a run is no measurement.
+/// The changes are a few percent of H. A run with an energy error of this size is left out.
 inline constexpr double most_energy_error = 0.03;
 
 inline Changes changes_over(const std::vector<TubeWatch>& all, std::size_t blocks) {
@@ -60,12 +61,12 @@ inline Changes changes_over(const std::vector<TubeWatch>& all, std::size_t block
   return changes;
 }
 
-/// The thesis' start has Q1 = 0.01: 64 starts within 1e-9 of it, which rounding could have made of it, and as many on a
-/// grid of 1 % around it, for neighbours part within some bounces only where the motion is chaotic.
+/// The starts of an ensemble. The thesis starts at Q1 = 0.01. One ensemble has 64 starts within 1e-9 of it, as rounding
+/// could change it. Such neighbours separate only if the motion is chaotic, so a second one has 64 starts within 1 %.
 struct Starts {
   const char* name;
   const char* told;
-  double from, width;  // of Q1
+  double from, width;  // the interval of Q1
 };
 inline constexpr Starts beside_start{"near", "within 1e-9 of q1 = 0.01", 0.01 - 5e-10, 1e-9};
 inline constexpr Starts around_start{"grid", "on a grid of 1 % around it", 0.0099, 2e-4};
@@ -74,9 +75,9 @@ struct Ensembles {
   Changes near, grid;
   std::int64_t steps_of_near = 0, steps_of_grid = 0;
 
-  /// How far one other start of the thesis' kind may lie from the mean of either: 3 standard deviations of single
-  /// starts, and twice as far as the mean moved in the later half of the runs, by the ensemble that scatters more; and
-  /// as far as the two are apart, for neighbours within 1e-9 that stay together do not tell how starts differ.
+  /// The expected distance of one further start from either mean: 3 standard deviations of single starts plus twice
+  /// `moved`, for the ensemble with the larger value. It is at least the distance of the two means, because neighbours
+  /// within 1e-9 may stay together and then do not show how starts differ.
   double scatter(Change Changes::*of) const {
     const auto alone = [&](const Changes& one) { return 3 * (one.*of).deviation + 2 * (one.*of).moved; };
     return std::max({alone(near), alone(grid), std::abs((near.*of).mean - (grid.*of).mean)});
@@ -95,10 +96,10 @@ struct Ensembles {
   }
 };
 
-/// Half a unit of the last digit of the table.
+/// Half a unit of the last printed digit of the table.
 inline constexpr double half_a_unit = 5e-5;
 
-/// A printed change against those of the runs: its distance from the nearer mean.
+/// The distance of a printed change from the nearer mean.
 inline Measured distance_of(const std::string& printed, const Ensembles& changes, Change Changes::*of,
                             const char* body) {
   const double number = std::stod(printed);
@@ -108,8 +109,8 @@ inline Measured distance_of(const std::string& printed, const Ensembles& changes
                       changes.told())};
 }
 
-/// A distance by another rule or step than the table has is uncertain by what that changes, too: by how far the means
-/// are from those of the table's own, and by their scatter.
+/// Adds to the uncertainty of a distance that was measured with another rule or step size than the thesis used: the
+/// distance of the means from those with its rule and step size, and their scatter.
 inline Measured by_another_way(Measured one, const Ensembles& changes, const Ensembles& usual, Change Changes::*of) {
   const double apart = std::abs((changes.near.*of).mean - (usual.near.*of).mean) + usual.scatter(of);
   one.uncertainty += apart;
@@ -117,8 +118,8 @@ inline Measured by_another_way(Measured one, const Ensembles& changes, const Ens
   return one;
 }
 
-/// The number of a pair that is farther from its printed value than starts differ; where neither is, the one that may
-/// be farther off.
+/// Returns the number that exceeds its uncertainty by more than half a unit, or by the larger amount if both do. If
+/// neither does, it returns the one with the larger upper bound.
 inline Measured worse_of(const Measured& one, const Measured& two) {
   const double excess = std::max(one.value - one.uncertainty, two.value - two.uncertainty);
   if (excess > half_a_unit) return excess == one.value - one.uncertainty ? one : two;

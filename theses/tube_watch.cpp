@@ -17,8 +17,8 @@ namespace hamflow::reproduction {
 
 namespace {
 
-constexpr std::int64_t part_of_block = 20000;  // steps, between which Ctrl-C is heard
-constexpr std::int64_t seldom = 10;            // steps between looks at a simulation that goes alone
+constexpr std::int64_t part_of_block = 20000;  // steps from one check for Ctrl-C to the next
+constexpr std::int64_t seldom = 10;            // steps from one sample to the next, outside of lanes
 
 Scenario scenario_for(const TubeSet& set, const TubeStart& start) {
   Reading reading = read_scenario_text(scenario_of_start(set, start, set.block), name_of(set.run), set.sets);
@@ -30,7 +30,8 @@ double energy_of(const Scenario& scenario, const std::vector<double>& q, const s
   return scenario.problem->energy(scenario.request.parameters, q, p);
 }
 
-/// A block has ended in the state q, p. @param means of the kinetic energies   @return whether the run goes on
+/// Stores the results of a block that has ended. @param means block means of the kinetic energies
+/// @return whether the run continues
 bool end_block(const Scenario& scenario, const TubeSet& set, TubeWatch& watch, const std::vector<double>& means) {
   const double start = energy_of(scenario, scenario.start_q, scenario.start_p);
   const double error = std::abs(energy_of(scenario, watch.q, watch.p) - start) / std::abs(start);
@@ -47,7 +48,7 @@ std::int64_t sum_of(const std::vector<WallCount>& walls) {
   return all;
 }
 
-/// A lane for each of them.   @return whether they go in lanes
+/// Runs each start in its own lane.   @return false if the method does not run in lanes
 bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch> all) {
   std::vector<Scenario> scenarios;
   std::vector<MemberStart> members;
@@ -68,7 +69,7 @@ bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch>
   Request request = scenarios[0].request;
   request.watch = false;
   const auto block = make_ensemble_block(request, widest_lanes());
-  if (!block || !block->load(shape, std::span(members).first(1))) return false;  // how many lanes: known from here on
+  if (!block || !block->load(shape, std::span(members).first(1))) return false;  // lanes() needs a loaded member
   if (all.size() > block->lanes()) {
     for (std::size_t i = 0; i < all.size(); i += block->lanes()) {
       if (!watch_in_lanes(study, set, all.subspan(i, std::min(block->lanes(), all.size() - i)))) return false;
@@ -124,7 +125,7 @@ void watch_alone(const Study& study, const TubeSet& set, TubeWatch& watch) {
     std::vector<double> means(2);
     const std::int64_t looks = set.block / seldom;
     for (std::int64_t i = 0; i < looks; ++i) {
-      if (simulation->advance(seldom) != Outcome::done) {  // of soft walls: through one
+      if (simulation->advance(seldom) != Outcome::done) {  // a soft wall fails if a body passes it
         watch.stopped = true;
         return;
       }
@@ -166,7 +167,7 @@ std::string json_of(const std::vector<TubeWatch>& watches) {
   return all.dump() + "\n";
 }
 
-/// Empty where the file holds none, or others.
+/// Reads stored results. Returns an empty vector if the file is missing or contains something else.
 std::vector<TubeWatch> kept_watches(const std::filesystem::path& file, std::span<const TubeStart> starts) {
   std::ifstream in(file);
   std::stringstream text;

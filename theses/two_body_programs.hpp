@@ -1,6 +1,6 @@
-// The two programs of [Gross1999, ch. 2] for a mass 2 in a central potential, with five Gauss points and dt = 0.1: that
-// of appendix A in Cartesian coordinates, and equations 2.98 to 2.102 in polar ones, which appendix B has for l = 0 and
-// which take the integrals of 1/r^2 and 1/r^3 in closed form.
+// The two programs of [Gross1999, ch. 2] for a mass 2 in a central potential, with five Gauss points and dt = 0.1. The
+// program of appendix A uses Cartesian coordinates. Equations 2.98 to 2.102 use polar ones, with the integrals of 1/r^2
+// and 1/r^3 in closed form; appendix B lists them for l = 0.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline constexpr double mass = 2, dt = 0.1, tolerance = 1e-13;
 inline constexpr int most_iterations = 15;
 
 struct CentralPotential {
-  char field;  // kepler, hooke, linear, binomial with lambda = 1
+  char field;  // first letter of kepler, hooke, linear, or binomial with lambda = 1
   double k;
 
   double V(double r) const {
@@ -31,7 +31,7 @@ struct CentralPotential {
         return k / 2 * (r * r - 1) * (r * r - 1);
     }
   }
-  /// V', V''.
+  /// Returns V' and V''.
   std::array<double, 2> derivatives(double r) const {
     switch (field) {
       case 'k':
@@ -47,12 +47,13 @@ struct CentralPotential {
 };
 
 struct ProgramRun {
-  double end = 0;           // the time that is reached: a step of more than 15 iterations ends the program
-  int most = 0;             // iterations of a step
-  double energy_error = 0;  // largest |H - H0|, of equations 2.98 to 2.102
+  double end = 0;           // the time reached; a step with more than 15 iterations ends the program
+  int most = 0;             // the largest number of iterations of a step
+  double energy_error = 0;  // largest |H - H0|; only for equations 2.98 to 2.102
 };
 
-/// Appendix A, with its sums in their order, its start of Newton's method and its end of it, |R| <= 1e-13.
+/// The program of appendix A, with the same order of sums, initial guess of Newton's method and stopping rule
+/// |R| <= 1e-13.
 inline ProgramRun appendix_a(const CentralPotential& potential, std::array<double, 2> q, std::array<double, 2> p,
                              long steps) {
   constexpr double factor = 2 * mass / dt;
@@ -94,7 +95,7 @@ inline ProgramRun appendix_a(const CentralPotential& potential, std::array<doubl
   return run;
 }
 
-/// Equations 2.98 to 2.104 from a Cartesian start; the angle is left out, since nothing depends on it.
+/// Equations 2.98 to 2.104 from a Cartesian start, without the angle, on which the others do not depend.
 inline ProgramRun in_polar_coordinates(const CentralPotential& potential, const std::array<double, 2>& q,
                                        const std::array<double, 2>& p, long steps) {
   constexpr double first = dt / mass, second = dt * dt / (2 * mass);

@@ -27,7 +27,7 @@ double two_to_one_share(const Study& study, double eps, double energy, double h,
     if (!(kinetic > 0)) continue;
     State<double> z{q1, q2, std::sqrt(2 * kinetic) * std::cos(angle), std::sqrt(200 * kinetic) * std::sin(angle)};
     z[2 + i] = side * std::abs(z[2 + i]);
-    // How far before the wall a state lies that just leaves, by a step h or by a step -h of its image.
+    // The distance from the wall at which a step just leaves the domain: a step h, or for `image` a step -h from R z.
     const auto layer = [&](bool image) {
       double low = 0, high = 3 * h * std::abs(z[2 + i]) / (i == 0 ? 1 : 100) + h * h * std::abs(eps) / 0.01;
       for (int bisection = 0; bisection < 60; ++bisection) {
@@ -49,7 +49,7 @@ double two_to_one_share(const Study& study, double eps, double energy, double h,
 }
 
 namespace {
-/// The step of StV4 from scratch, for one pair of states in more digits than the library's step has.
+/// An independent implementation of a step of stv4 in long double, for the pair of states.
 struct LongState {
   long double q[2], p[2];
 };

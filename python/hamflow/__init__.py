@@ -41,7 +41,7 @@ __all__ = ["Compare", "Error", "FileError", "LogCertificate", "Problem", "Reject
 
 
 class Infos(list):  # type: ignore[type-arg]
-    """A list of info objects; in a notebook a table."""
+    """A list of entries of the catalogue. A notebook shows it as a table."""
 
     def __repr__(self) -> str:
         return f"<hamflow: {len(self)} entries: {', '.join(each.name for each in self[:6])}{', ...' if len(self) > 6 else ''}>"
@@ -52,7 +52,23 @@ class Infos(list):  # type: ignore[type-arg]
 
 
 def methods(problem: Problem | None = None, /) -> Infos:
-    """The methods, or those that take a problem: name, summary, order, symplectic, symmetric, reversible, ..."""
+    """Lists the methods of the catalogue.
+
+    Parameters
+    ----------
+    problem : Problem, optional
+        Lists only the methods that can integrate this problem. Default: all methods.
+
+    Returns
+    -------
+    list of objects
+        With the attributes name, summary, order, symplectic, symmetric, reversible, ...
+
+    Raises
+    ------
+    TypeError
+        If `problem` is not a Problem.
+    """
     if problem is not None and not isinstance(problem, Problem):
         raise TypeError(f"problem: found {type(problem).__name__}; allowed a Problem, or nothing")
     found = [SimpleNamespace(**each) for each in _core.methods()]
@@ -60,7 +76,13 @@ def methods(problem: Problem | None = None, /) -> Infos:
 
 
 def problems() -> Infos:
-    """The problems of the catalogue: name, formula, coordinates, parameters, reference."""
+    """Lists the problems of the catalogue.
+
+    Returns
+    -------
+    list of objects
+        With the attributes name, formula, coordinates, parameters and reference.
+    """
     return Infos(SimpleNamespace(**each) for each in _core.problems())
 
 

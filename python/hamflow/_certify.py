@@ -1,4 +1,4 @@
-"""Energies and integrators of other programs."""
+"""Certificates for the energies and the integrators of other programs."""
 
 from __future__ import annotations
 
@@ -33,16 +33,18 @@ class LogCertificate:
     drift : str
         "bounded", "random walk", "linear" or "undecided", as in the certificate of a run.
     energy_level : float or None
-        The largest abs(E - E[0])/scale; None where the scale is unknown.
+        The largest abs(E - E[0])/scale; None if the scale is unknown.
     growth_exponent : float or None
-        c in "the error grows like t^c"; None below 33 samples.
+        The exponent c of the growth t^c of the error; None with fewer than 33 samples.
     reason : str
-        For the class, or for having none.
+        Why the log has this drift class, or why the class is undecided.
     samples : int
+        The number of energies in the log.
     periods : float or None
-        Oscillations seen in the energy, at most one for every two of 256 blocks; None: none was seen.
+        The number of oscillations found in the energy; None if none was found. The log is averaged over 256 blocks, so
+        that at most 128 oscillations are found.
     scale : float or None
-        The one that was given, else abs(E[0]); None where E[0] is 0.
+        The scale that the caller gave, else abs(E[0]); None if E[0] is 0.
     """
 
     def __init__(self, found: Mapping[str, Any]) -> None:
@@ -72,33 +74,33 @@ def _column(x: npt.ArrayLike, name: str) -> Numbers:
 
 
 def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None) -> LogCertificate:
-    """Classifies the energy error in the log of any program, by the rules of a run's certificate.
+    """Classifies the energy error in the log of any program, by the rules for the certificate of a run.
 
     Parameters
     ----------
     t : array_like, shape (n,)
-        Times, which rise strictly. Where they are not equidistant the log is cut into parts of equal duration.
+        Strictly increasing times. If they are not equidistant, the log is divided into parts of equal duration.
     energy : array_like, shape (n,)
         The energies at these times, in any unit.
     scale : float, optional
-        The energy that the error is a part of. Default: abs(energy[0]).
+        The energy that the error is divided by. Default: abs(energy[0]).
 
     Returns
     -------
     LogCertificate
-        drift, energy_level, growth_exponent, reason. A log has no coordinates, so that oscillations are those of the
-        energy itself; where they do not carry a class, `drift` is "undecided" and `reason` says why. A class needs 33
-        samples.
+        With drift, energy_level, growth_exponent, reason. A log contains no coordinates, so oscillations are counted in
+        the energy itself. If they do not suffice for a class, or if there are fewer than 33 samples, `drift` is
+        "undecided" and `reason` says why.
 
     Raises
     ------
     Error
-        For NaN and infinite numbers, times that do not rise, different lengths, fewer than two samples, a scale that
-        is not positive.
+        If a number is NaN or infinite, if the times do not increase, if the lengths differ, if there are fewer than two
+        samples, or if the scale is not positive.
 
     Notes
     -----
-    The tests and their limits are those of `hamflow run`; see docs/design/certificates.md.
+    `hamflow run` uses the same tests and limits; docs/design/certificates.md explains them.
 
     Examples
     --------
@@ -115,20 +117,20 @@ def certify(t: npt.ArrayLike, energy: npt.ArrayLike, scale: float | None = None)
 
 
 class StepCertificate:
-    """The measured properties of a step on a problem.
+    """The result of certify_step(): measured properties of a step on one problem.
 
     Attributes
     ----------
     order : float
-        As measured; inf where every step is exact to rounding, nan where no order could be measured.
+        The measured order; inf if every step is exact up to rounding, nan if no order could be measured.
     symplectic, symmetric : True, False or None
-        None: undecided.
+        None means undecided.
     preserves : dict
         {NAME: True, False or None}, for "energy" and every invariant of the problem.
     agrees : True, False or None
-        Whether every claim that was made holds; False where one is refuted; None where one is undecided.
+        True if all claims hold, False if one is refuted, else None: a claim is undecided.
     reason : str
-        What refutes a claim, or leaves a property undecided.
+        The measurement that refutes a claim, or why a property is undecided.
     """
 
     def __init__(self, found: Mapping[str, Any]) -> None:
@@ -176,36 +178,38 @@ def certify_step(step: Step, problem: str | Problem | Mapping[str, Any], order: 
         step(q, p, h) -> (q, p), or a function that changes its arguments in place and returns None. q and p are arrays
         of float64 and shape (d,), h is a float, also a negative one. The same arguments have to give the same bits.
     problem : str, Problem, or dict from Problem.at
-        The problem whose forces the step has in it, with all parameters at their defaults for a name:
+        The problem that the step integrates. A name stands for the problem with default parameters:
         "harmonic", H = (p^2 + q^2)/2; "kepler", H = (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2); "henon-heiles";
-        "pendulum", H = p^2/2 - cos q. The sizes of q and p and the time scale are those at the start, in any
-        units. A Problem without a start is measured about a state that the catalogue declares for it; one without such
+        "pendulum", H = p^2/2 - cos q. The start determines the sizes of q and p and the time scale, in any units. A
+        Problem without a start is measured near a state that the catalogue declares for it. A problem without such
         a state needs `problem.at(q=..., p=...)`.
     order : int, optional
-        The order that is claimed; it agrees within 0.5, from order 7 on within 1.
+        The claimed order. A measured order agrees if it differs by at most 0.5, or by at most 1 for orders from 7.
     symplectic, symmetric : bool, optional
         The claim. A property without a claim is measured, but not compared.
     preserves : str or sequence of str, optional
-        Quantities that are claimed to be conserved to rounding: "energy", and invariants such as "angular_momentum".
+        The quantities that the step is claimed to conserve up to rounding: "energy", or invariants such as
+        "angular_momentum".
 
     Returns
     -------
     StepCertificate
-        order, symplectic, symmetric, preserves, agrees, reason, for this problem. On a linear one, and with one degree of
-        freedom, more may hold than is claimed, which refutes nothing.
+        With order, symplectic, symmetric, preserves, agrees, reason for this problem. On a linear problem, or with one
+        degree of freedom, a step may have properties that it does not claim; that does not refute a claim.
 
     Raises
     ------
     Error
-        For a step that raises, returns other shapes or NaN, changes nothing, or keeps hidden state; for a problem with
-        walls, with constraints or with an H that depends on t; for unknown names.
+        If the step raises, returns other shapes or NaN, changes nothing, or keeps hidden state; if the problem has
+        walls or constraints, or an H that depends on t; if a name is unknown.
 
     Notes
     -----
-    Errors of single steps are measured against Taylor series in long double. The Jacobian comes from central differences of
-    order 6 with three difference lengths, whose disagreement is its error bound [HLW2006, Def. VI.2.1].
+    Errors of single steps are measured against Taylor series in long double. The Jacobian comes from central
+    differences of order 6 with three difference lengths; their disagreement bounds its error [HLW2006, Def. VI.2.1].
     A property is True if its defect is at rounding level, False if the defect is as large as the error of the step, and
-    None in between, e.g. for equations solved to a coarse tolerance or single precision. Some 2000 steps are taken.
+    None in between, for instance if equations are solved to a coarse tolerance or in single precision. The measurement
+    takes some 2000 steps.
 
     Examples
     --------

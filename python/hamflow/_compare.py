@@ -18,21 +18,23 @@ _SHOWN = ("method", "order", "dt", "steps", "evaluations", "error", "max_energy_
 
 
 class Compare:
-    """Several methods with several step sizes on one problem.
+    """The result of compare(): several methods with several step sizes on one problem.
 
     Attributes
     ----------
     rows : list of dict
-        One for each method and step size, with the names and values of `hamflow compare --json`: method, order, dt,
-        steps, status, evaluations (force, gradient, hessian, linear_solves), error (largest difference at the end over
-        its size along the motion), max_energy_error, end_energy_error, seconds, ... Numbers too small for a float are
-        texts.
+        One row for each method and step size, with the names and values of `hamflow compare --json`: method, order, dt,
+        steps, status, evaluations (force, gradient, hessian, linear_solves), error (the largest difference at the end,
+        divided by the size of the coordinate along the trajectory), max_energy_error, end_energy_error, seconds, ...
+        A number too small for a float is a text.
     summary : dict
-        All of that JSON: status, reference (kind, description, q, p, uncertainty), rows, winners, warnings.
+        The whole JSON: status, reference (kind, description, q, p, uncertainty), rows, winners, warnings.
+    status : str
+        "failed" if no run finished.
     text : str
-        The table of the command.
+        The table that the command prints.
     notes : list of str
-        What is worth knowing of the request: keys that are not used, step sizes that were moved.
+        Notes on the request: unused keys, and step sizes that were changed.
     """
 
     def __init__(self, report: Any, notes: Sequence[str]) -> None:
@@ -44,12 +46,12 @@ class Compare:
         self.notes = list(notes)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws error over evaluations, error over seconds and energy error over evaluations.
+        """Draws three panels: error over evaluations, error over seconds, and energy error over evaluations.
 
         Parameters
         ----------
         ax : matplotlib axes, or an array of three, optional
-            A single one takes error over evaluations. Default: new ones.
+            Single axes show only the error over evaluations. Default: new axes.
 
         Returns
         -------
@@ -58,18 +60,24 @@ class Compare:
         Raises
         ------
         Error
-            Where no run has an error to draw.
+            If no run has an error that can be drawn.
         """
         from ._page import draw
 
         return draw(self._report.page(), ax)
 
     def figure(self, file: str | os.PathLike[str]) -> None:
-        """Draws the same figure with gnuplot into a file .svg, .pdf or .png."""
+        """Draws the same figure with gnuplot into a file.
+
+        Parameters
+        ----------
+        file : path
+            Its suffix selects the format: .svg, .pdf or .png.
+        """
         self._report.draw(os.fspath(file))
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame of the rows, with a column for each kind of evaluations."""
+        """Returns the rows as a pandas.DataFrame, with one column for each kind of evaluation."""
         import pandas
 
         return pandas.json_normalize(self.rows)
@@ -103,18 +111,19 @@ def compare(scenario: Any, /, *, methods: Sequence[str] | str, dt: Sequence[Any]
     Parameters
     ----------
     scenario : Scenario, dict of tables, or name of a TOML file
-        Its own method is not run; the other keys of its table [method] hold for every method that has them.
+        `methods` replaces its method. Other keys of its table [method] apply to every method that has them.
     methods : list of str
-        Such as ["verlet", "cg(1,5)"].
+        For example ["verlet", "cg(1,5)"].
     dt : list of float or str, optional
-        Each is moved to the nearest step size that divides the time of the run. Default: 2, 1, 1/2, ..., 1/16 of that
-        of the scenario.
+        Step sizes. Each is replaced by the nearest one that divides the time of the run. Default: 2, 1, 1/2, ..., 1/16
+        times the step size of the scenario.
     out : path, optional
-        A folder for compare.json, compare.csv and figures/.
+        Output directory, for compare.json, compare.csv and figures/. Default: no files are written.
     existing : "error" or "replace"
-        What to do with a folder that exists.
+        What to do if the output directory exists.
     progress : bool or callable(done, total), optional
-        Of runs. Default: on a terminal, for what takes longer than 2 s.
+        Whether to show progress, or a function that is called with the number of finished runs and of all runs.
+        Default: show it on a terminal or in a notebook, if the comparison takes longer than 2 s.
 
     Returns
     -------
@@ -123,12 +132,13 @@ def compare(scenario: Any, /, *, methods: Sequence[str] | str, dt: Sequence[Any]
     Raises
     ------
     Rejection
-        With everything that is wrong, before anything runs.
+        If the scenario is wrong. It lists all errors, and is raised before anything runs.
     Error
-        Where no run comes to its end; its attribute `partial` is the comparison.
+        If no run finishes. Its attribute `partial` is the comparison.
     FileError
+        If a file or folder cannot be read or written.
     KeyboardInterrupt
-        Its attribute `partial` is the comparison so far.
+        Its attribute `partial` is the comparison up to the interrupt.
 
     Examples
     --------

@@ -27,40 +27,41 @@ def convert(given: Any, /, *, to: str, method: str | None = None, digits: bool =
 
 
 def convert(given: Any, /, *, to: str, start: str | None = None, method: str | None = None, digits: bool = False) -> Any:
-    """Converts a run, a scenario or states to other coordinates. The change is canonical, so H keeps its value.
+    """Converts a run, a scenario or states to other coordinates. The transformation is canonical: it keeps H.
 
     Parameters
     ----------
     given : Run, folder of a run or its run.h5; Scenario, dict of tables or name of a TOML file; or (q, p)
         q and p have the shape (d,) or (n, d).
     to : str
-        Such as "cartesian" or "polar" for a central force, "absolute" or "relative" for a double pendulum.
+        The new coordinates: "cartesian" or "polar" for a central force, "absolute" or "relative" for a double pendulum.
     start : str
-        Of (q, p): their coordinates.
+        The coordinates of (q, p). Only allowed with (q, p), and needed there.
     method : str, optional
-        Of a scenario: the method of the converted one. Default: its own.
+        The method of the converted scenario. Only allowed with a scenario. Default: the method is kept.
     digits : bool
-        Of a run beyond double: t, q, p, energy as arrays of decimal.Decimal.
+        Whether t, q, p, energy of a run are arrays of decimal.Decimal. Only allowed in arithmetic with more digits than
+        double.
 
     Returns
     -------
     Trajectory
-        Of a run: all samples, t (n,), q (n, d), p (n, d), energy (n,), step (n,); columns by their new names.
+        From a run: all samples, t (n,), q (n, d), p (n, d), energy (n,), step (n,), and columns by their new names.
     Scenario
-        Of a scenario.
+        From a scenario.
     q, p : arrays
-        Of states, of the shape of those given.
+        From states, with the shape of the given q and p.
 
     Warns
     -----
     UserWarning
-        Where samples lie too far apart to count the turns of an angle, and of keys that the converted scenario has not.
+        If samples are too far apart to count the turns of an angle, or if the converted scenario loses keys.
 
     Raises
     ------
     Error
-        Where the problem has no such coordinates, they do not reach a state (polar ones at r = 0), or the method does
-        not run in them.
+        If the problem has no such coordinates, if they cannot describe a state (polar coordinates at r = 0), or if the
+        method cannot run in them.
 
     Examples
     --------

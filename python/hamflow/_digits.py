@@ -12,12 +12,12 @@ from ._errors import Error
 
 
 def decimals(table: Any, name: str) -> npt.NDArray[Any]:
-    """A column t, q, p or energy as decimal.Decimal, of dtype object and the shape of the column of doubles.
+    """Returns the column t, q, p or energy as decimal.Decimal (dtype object), shaped like the column of doubles.
 
     Raises
     ------
     Error
-        Where the table has no digits beyond double.
+        If the table has no more digits than doubles.
     """
     if f"digits/{name}" not in table:
         raise Error("digits: found True, but the samples are doubles; allowed in arithmetic with more digits than double")

@@ -9,7 +9,7 @@ AnyException = TypeVar("AnyException", bound=BaseException)
 
 
 class Error(ValueError):
-    """A request was refused. The message names the error and the allowed values."""
+    """A request is refused. The message names the error and the allowed values."""
 
 
 class Rejection(Error):
@@ -18,7 +18,7 @@ class Rejection(Error):
     Attributes
     ----------
     errors : list of (key, message)
-        Everything that is wrong with it.
+        All errors of the scenario.
     """
 
     def __init__(self, errors: list[tuple[str, str]]) -> None:
@@ -30,18 +30,18 @@ class Rejection(Error):
 
 
 class StepFailed(Error):
-    """A step failed. The simulation is at the last good step.
+    """A step failed. The simulation stays at the last good step.
 
     Attributes
     ----------
     kind : str
-        Such as "not_converged", "non_finite".
+        The kind of failure, such as "not_converged" or "non_finite".
     step : int
         The number of the last good step.
     t : float
-        Its time.
+        The time of the last good step.
     hint : str
-        What can be tried.
+        What the caller can try.
     """
 
     def __init__(self, message: str, kind: str = "", step: int = 0, t: float = 0.0, hint: str = "") -> None:

@@ -12,7 +12,7 @@ from ._errors import Error
 _MARKERS = {1: "+", 4: "s", 5: "s", 6: "o", 7: "o", 8: "^", 9: "^", 10: "v", 11: "v", 12: "D", 13: "D", 14: "p", 15: "p"}
 _RINGS = (4, 6, 8, 10, 12, 14)
 _DASHES = {1: "-", 2: "--", 3: ":", 4: "-."}
-# A letter in italics or any other, with its indices and powers.
+# A symbol in italics or a word, with its indices and powers.
 _SYMBOL = re.compile(r"\{/:Italic ([^{}]*)\}((?:[_^](?:\{[^{}]*\}|[^\\]))*)|(\w+)((?:(?<!\\)[_^](?:\{[^{}]*\}|[^\\]))+)")
 
 
@@ -35,12 +35,13 @@ def draw(page: Mapping[str, Any], ax: Any = None) -> Any:
     Parameters
     ----------
     page : dict
+        The page from C++ (python/src/pages.cpp).
     ax : matplotlib axes, or an array of them, optional
-        One for each panel; a single one takes the first panel. Default: new axes of pyplot.
+        One for each panel. Single axes show the first panel. Default: new axes of pyplot.
 
     Returns
     -------
-    The axes; an array of them if the page has several panels and `ax` is not a single one.
+    The axes; an array of them if more than one panel is drawn.
     """
     panels = page["panels"]
     if ax is None:
@@ -66,7 +67,7 @@ def require_axes(ax: Any) -> None:
 
 
 def svg(page: Mapping[str, Any]) -> str:
-    """The page as SVG; empty without matplotlib."""
+    """Returns the page as SVG, or an empty text if matplotlib is not installed."""
     try:
         from matplotlib.backends.backend_svg import FigureCanvasSVG
         from matplotlib.figure import Figure
@@ -151,7 +152,7 @@ def _series(panel: Mapping[str, Any], series: Mapping[str, Any], ax: Any) -> Non
 
 
 def _fields(panel: Mapping[str, Any], x: Any, y: Any, value: Any, ax: Any) -> None:
-    """Coloured rectangles, each by its lower left and its upper right corner."""
+    """Draws coloured rectangles. x and y alternate between lower left and upper right corners."""
     from matplotlib.collections import PatchCollection
     from matplotlib.colors import LogNorm, Normalize
     from matplotlib.patches import Rectangle
@@ -164,7 +165,7 @@ def _fields(panel: Mapping[str, Any], x: Any, y: Any, value: Any, ax: Any) -> No
 
 
 def _legend(page: Mapping[str, Any], axes: Any) -> None:
-    """The legend that all panels share: after the last panel if there is room, else in the first."""
+    """Draws the legend of all panels: in an empty place after the last panel, else in the first panel."""
     from matplotlib.lines import Line2D
 
     if not page["legend"]:

@@ -1,4 +1,4 @@
-"""Hamiltonians."""
+"""Problems: Hamiltonians from the catalogue, from text, from functions and from SymPy."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 def momentum_names(coordinates: Sequence[str]) -> list[str]:
-    """The names that momenta have in formulas: p of q, p1 of q1, p_x of x."""
+    """Returns the names of the momenta in formulas: p for q, p1 for q1, p_x for x."""
     names = []
     for name in coordinates:
         is_q = name == "q" or (name[:1] == "q" and name[1:].isdigit())
@@ -31,22 +31,26 @@ class Problem:
     Parameters
     ----------
     hamiltonian : str, callable, SymPy expression or dict
-        H as text in the names of coordinates and momenta (p of q, p1 of q1, p_x of x); a function of arrays of
-        symbols (q, p), which is traced once; a SymPy expression; the name of a problem of the catalogue
-        (`hamflow.problems()`), whose keys are the other arguments; or a table [problem] as a dict.
+        One of: H as text in the names of coordinates and momenta (p for q, p1 for q1, p_x for x); a function (q, p)
+        that is called once, with arrays of symbols; a SymPy expression; the name of a problem of the catalogue
+        (`hamflow.problems()`); a table [problem] as a dict.
     coordinates : list of str, optional
-        Their names. Default: q1, q2, ... where `dimension` is given.
+        Names of the coordinates. Default with `dimension`: q for one coordinate, else q1, q2, ...
     dimension : int, optional
-        Degrees of freedom, in place of names.
+        Number of degrees of freedom, 1 to 100000. Replaces `coordinates`.
     parameters : mapping, optional
-        Values of the other names in the text; numbers, or texts with more digits.
+        Values of the other names in H: numbers, or texts with more digits.
     **keys
-        The keys of a problem of the catalogue.
+        Other keys of the table [problem], such as the parameters of a problem of the catalogue.
 
     Raises
     ------
     Rejection
-        Where the text is no Hamiltonian, or a key is wrong.
+        If the text is not a Hamiltonian, or a key is wrong.
+    Error
+        If the catalogue has no problem of this name.
+    TypeError
+        If an argument has the wrong type, or `coordinates` and `dimension` are both missing.
 
     Examples
     --------
@@ -96,7 +100,7 @@ class Problem:
 
     @property
     def name(self) -> str:
-        """The name in the catalogue; "formula" for a typed Hamiltonian."""
+        """The name in the catalogue, or "formula" for a typed Hamiltonian."""
         return str(self._core.name)
 
     @property
@@ -106,12 +110,12 @@ class Problem:
 
     @property
     def coordinates(self) -> list[str]:
-        """Names of q; empty if the start determines the size."""
+        """Names of the coordinates; empty if their number depends on the start."""
         return list(self._core.coordinates)
 
     @property
     def momenta(self) -> list[str]:
-        """Names of p."""
+        """Names of the momenta; empty if their number depends on the start."""
         return list(self._core.momenta)
 
     @property
@@ -121,11 +125,11 @@ class Problem:
 
     @property
     def structure(self) -> dict[str, bool]:
-        """Whether H = T(p) + V(q), whether T is quadratic in p, and whether H depends on t."""
+        """{"separable": H = T(p) + V(q), "quadratic_kinetic": T is quadratic in p, "time": H depends on t}."""
         return dict(self._core.structure)
 
     def energy(self, q: npt.ArrayLike, p: npt.ArrayLike) -> float | Numbers:
-        """H(q, p).
+        """Evaluates H(q, p) at one state or at n states.
 
         Parameters
         ----------
@@ -139,13 +143,34 @@ class Problem:
         return found
 
     def gradient(self, q: npt.ArrayLike, p: npt.ArrayLike) -> tuple[Numbers, Numbers]:
-        """(dH/dq, dH/dp), of the shape of q and p, (d,) or (n, d)."""
+        """Evaluates the derivatives of H at one state or at n states.
+
+        Parameters
+        ----------
+        q, p : array_like, shape (d,) or (n, d)
+
+        Returns
+        -------
+        dH/dq, dH/dp : arrays with the shape of q and p
+        """
         by_q, by_p = self._core.gradient(_state(q, "q"), _state(p, "p"))
         return by_q, by_p
 
     def at(self, *, q: Sequence[Any] | Numbers | None = None, p: Sequence[Any] | Numbers | None = None,
            **initial: Any) -> dict[str, Any]:
-        """The table [problem] with a start, for `Scenario`."""
+        """Returns the table [problem] with a start, as `Scenario` takes it.
+
+        Parameters
+        ----------
+        q, p : sequence of d numbers, optional
+            Coordinates and canonical momenta. A text keeps all its digits.
+        **initial
+            Other keys of the table [problem.initial], such as v for velocities.
+
+        Returns
+        -------
+        dict
+        """
         return self._started(q, p, initial)
 
     def _started(self, q: Any, p: Any, initial: Mapping[str, Any]) -> dict[str, Any]:

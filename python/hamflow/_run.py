@@ -25,7 +25,7 @@ Progress = Callable[[int, int], Any]
 
 
 def _as_attributes(tree: Any) -> Any:
-    """Dicts as objects whose entries are attributes."""
+    """Converts dicts, at any depth, to objects with the entries as attributes."""
     if isinstance(tree, Mapping):
         return SimpleNamespace(**{str(key).replace(" ", "_"): _as_attributes(value) for key, value in tree.items()})
     if isinstance(tree, list):
@@ -34,7 +34,13 @@ def _as_attributes(tree: Any) -> Any:
 
 
 class States:
-    """Points of a section, bounces or events: t (n,), q (n, d), p (n, d) and what else their table has."""
+    """Points of a section, bounces or events.
+
+    Attributes
+    ----------
+    t, q, p : arrays of shape (n,), (n, d), (n, d)
+        Every other column of the table is an attribute, too. [] takes the names of columns.
+    """
 
     def __init__(self, table: Any, prefix: str = "") -> None:
         self._table, self._prefix = table, prefix
@@ -69,15 +75,18 @@ class Run:
     status : str
         "done", "failed", "interrupted", or "running" for an opened run without a summary.
     t, q, p, energy : arrays of shape (n,), (n, d), (n, d), (n,)
-        The samples; read-only views of float64. With digits=True, which run() and open() take, arrays of
-        decimal.Decimal (dtype object) with all digits of an arithmetic beyond double.
+        The samples, as read-only views of float64. After run(..., digits=True) or open(..., digits=True) they are
+        arrays of decimal.Decimal (dtype object) with all digits of the arithmetic.
     summary : dict
-        That of `hamflow run --json`.
+        The summary that `hamflow run --json` prints.
     scenario : Scenario
+        What was run.
     folder : Path or None
-        The folder of the run.
+        The folder of the run; None if nothing was written.
+    warnings : list of objects
+        The warnings of the summary.
     notes : list of str
-        Notes about the start of the run: keys that are not used, the step from which it was resumed.
+        Notes about the start of the run: unused keys, and the step from which the run was resumed.
     """
 
     def __init__(self, scenario: Scenario, tables: Any, summary: str, folder: Path | None, digits: bool = False,
@@ -115,12 +124,12 @@ class Run:
         raise KeyError(f"no column {shown(name)}; there are {', '.join(self.columns)}")
 
     def digits(self, name: str) -> npt.NDArray[Any]:
-        """t, q, p or energy with all their digits, as an array of decimal.Decimal.
+        """Returns t, q, p or energy with all digits, as an array of decimal.Decimal (dtype object).
 
         Raises
         ------
         Error
-            In double, where the columns have all digits, and for other columns.
+            If the arithmetic has no more digits than double, or if `name` is another column.
         """
         if name not in ("t", "q", "p", "energy"):
             raise Error(f"name: found {shown(name)}; allowed t, q, p, energy")
@@ -128,41 +137,41 @@ class Run:
 
     @property
     def certificate(self) -> Any:
-        """The certificate of the summary: drift, growth_exponent, energy_level, reason, ...; None if there is none."""
+        """The certificate of the summary (drift, growth_exponent, energy_level, reason, ...), or None."""
         return _as_attributes(self.summary.get("certificate"))
 
     @property
     def lyapunov(self) -> Any:
-        """exponents, errors, ... with run.lyapunov; else None."""
+        """The Lyapunov exponents (exponents, errors, ...), or None without run.lyapunov."""
         return _as_attributes(self.summary.get("lyapunov"))
 
     @property
-    def section(self) -> States | Any:  # None is not in the type: who asks for a section knows that there is one
-        """The points of run.section; None without one."""
+    def section(self) -> States | Any:  # not `| None`, so that type checkers accept run.section.q without a test
+        """The points of the Poincare section run.section, or None without one."""
         return States(self._tables.section) if self._tables.section is not None else None
 
     @property
     def bounces(self) -> States | Any:
-        """The recorded bounces off hard walls; None if there are none."""
+        """The recorded bounces off hard walls, or None without a record."""
         return States(self._tables.bounces) if self._tables.bounces is not None else None
 
     @property
     def events(self) -> dict[str, States]:
-        """The events of run.events by name."""
+        """The located events, by their name in run.events."""
         return {name: States(table) for name, table in self._tables.events.items()}
 
     @property
     def observables(self) -> dict[str, Numbers]:
-        """The expressions of output.observables at each sample."""
+        """The values of the expressions of output.observables, by name: one for each sample."""
         return {name[12:]: self._samples[name] for name in self._samples.columns if name.startswith("observables/")}
 
     @property
     def invariants(self) -> dict[str, Numbers]:
-        """The conserved quantities of the problem at each sample."""
+        """The values of the conserved quantities of the problem, by name: one for each sample."""
         return {name[11:]: self._samples[name] for name in self._samples.columns if name.startswith("invariants/")}
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame of t, coordinates, momenta and energy."""
+        """Returns a pandas.DataFrame of t, coordinates, momenta and energy."""
         import pandas
 
         names = ["t", *self.scenario.coordinates, *self.scenario.momenta, "energy"]
@@ -180,22 +189,22 @@ class Run:
         ----------
         kind : str
             "orbit", "time", "energy", "energy-error", "phase", "section", "particles", "tracks", "radial",
-            "condition"; `hamflow.show(kind)` says what each shows. Default: the first that the run allows.
+            "condition"; `hamflow.show(kind)` explains each. Default: the first kind that the run allows.
         ax : matplotlib axes, or an array of them, optional
-            One for each panel; a single one takes the first panel. Default: new ones.
+            One for each panel. Single axes show the first panel. Default: new axes.
         x, y : str, list of str
-            Columns over one another, of "time", "orbit" and "phase".
+            Columns for the axes of "time", "orbit" and "phase".
         at : list of float
-            Times, of "particles" and "radial".
+            Times for "particles" and "radial".
 
         Returns
         -------
-        The axes; an array of them if the figure has several panels.
+        The axes; an array of them if more than one panel is drawn.
 
         Raises
         ------
         Error
-            If the run has no such figure.
+            If this kind of figure cannot be drawn of the run.
         """
         from ._page import draw
 
@@ -203,7 +212,19 @@ class Run:
 
     def figure(self, kind: str, file: str | os.PathLike[str], *, x: str = "", y: Sequence[str] = (),
                at: Sequence[float] = ()) -> None:
-        """Draws the same figure with gnuplot into a file .svg, .pdf or .png, like `hamflow plot`."""
+        """Draws a figure with gnuplot into a file, like `hamflow plot`.
+
+        Parameters
+        ----------
+        kind, x, y, at
+            As for plot().
+        file : path
+            Its suffix selects the format: .svg, .pdf or .png.
+
+        Raises
+        ------
+        Error, FileError
+        """
         more = (x, [y] if isinstance(y, str) else list(y), [float(time) for time in at])
         if self.folder is not None:
             _core.draw(self.folder, kind, os.fspath(file), *more)
@@ -212,7 +233,13 @@ class Run:
             _core.draw(self.save(Path(place) / "a.run"), kind, os.fspath(file), *more)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Writes a folder like `hamflow run`: copies the run, or repeats it with the same bits."""
+        """Writes a folder like `hamflow run`: copies the folder of the run, or repeats a run that has none.
+
+        Raises
+        ------
+        FileError
+            If the folder exists or cannot be written.
+        """
         to = Path(folder)
         if os.path.lexists(to):
             raise FileError(f"{to} exists; choose another folder")
@@ -248,7 +275,7 @@ class Run:
         return _html.facts(rows) + self._first_figure()
 
     def _first_figure(self) -> str:
-        """The first figure of the scenario, or the default one, as SVG; empty if nothing can be drawn."""
+        """Returns the first figure of the scenario, or the default one, as SVG; empty if nothing can be drawn."""
         from ._page import svg
 
         try:
@@ -258,7 +285,10 @@ class Run:
 
 
 def _progress(asked: bool | Progress | None, total: int) -> Callable[[int], None] | None:
-    """What is told of steps taken. By default a line on a terminal for what takes longer than 2 s."""
+    """Returns the function that shows the number of steps taken, or None.
+
+    By default, a terminal or a notebook shows a line once the work has taken 2 s.
+    """
     if asked is None:
         asked = sys.stderr is not None and sys.stderr.isatty() or "ipykernel" in sys.modules
     if asked is False:
@@ -283,7 +313,7 @@ def _progress(asked: bool | Progress | None, total: int) -> Callable[[int], None
 
 
 def _bar(total: int) -> Callable[[int], None]:
-    """A bar of tqdm if it is there, else a line on stderr."""
+    """Returns a function that updates a bar of tqdm if it is installed, else a line on stderr."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -301,7 +331,7 @@ def _bar(total: int) -> Callable[[int], None]:
 
 
 def progress_of_both(asked: bool | Progress | None) -> Progress | None:
-    """The same for work whose total is known once it is told of the first time."""
+    """Like _progress(), for work whose total is known only at the first call."""
     if callable(asked):
         return asked
     if asked is False:
@@ -327,14 +357,16 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
     out : path, optional
         Output directory, as for the command. Default: nothing is written.
     existing : "error", "replace" or "resume"
-        What to do with an existing folder. "resume" continues from its last checkpoint, bit for bit, and begins where
-        there is none.
+        What to do if the output directory exists. "resume" continues from its last checkpoint, bit for bit, or starts
+        at step 0 if there is no checkpoint.
     progress : bool or callable(done, total), optional
-        Default: on a terminal, for what takes longer than 2 s.
+        Whether to show progress, or a function that is called with the number of steps taken and of all steps.
+        Default: show it on a terminal or in a notebook, if the run takes longer than 2 s.
     certificate : bool
-        Whether to make a certificate, which takes at most a tenth of the run or a second.
+        Whether to make a certificate. It takes at most a second, or a tenth of the time of the run.
     digits : bool
-        Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double.
+        Whether t, q, p, energy are arrays of decimal.Decimal with all digits. Only allowed in arithmetic with more
+        digits than double.
 
     Returns
     -------
@@ -342,11 +374,14 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
 
     Raises
     ------
-    Rejection, FileError
+    Rejection
+        If the scenario is wrong. It lists all errors, and is raised before anything runs.
+    FileError
+        If a file or folder cannot be read or written.
     StepFailed
-        Its attribute `partial` is the run up to the last good step.
+        If a step fails. Its attribute `partial` is the run up to the last good step.
     KeyboardInterrupt
-        Likewise; with a folder, existing="resume" goes on.
+        Its attribute `partial` is the run up to the interrupt. If `out` is given, existing="resume" continues it.
 
     Examples
     --------
@@ -387,19 +422,26 @@ def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing
 
 
 def open(run: str | os.PathLike[str], /, *, digits: bool = False) -> Run:  # noqa: A001
-    """A run in a folder, or its run.h5, also while it grows.
+    """Opens a finished, running or interrupted run.
 
     Parameters
     ----------
     run : path
+        The folder of the run, or its run.h5.
     digits : bool
-        Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double.
+        Whether t, q, p, energy are arrays of decimal.Decimal with all digits. Only allowed in arithmetic with more
+        digits than double.
+
+    Returns
+    -------
+    Run
 
     Raises
     ------
     FileError
+        If the run cannot be read.
     Error
-        With digits=True, if the run is in double.
+        With digits=True, if the run has no more digits than double.
     """
     path = Path(run)
     found = _core.open_run(path)
@@ -409,7 +451,18 @@ def open(run: str | os.PathLike[str], /, *, digits: bool = False) -> Run:  # noq
 
 
 class Reversal:
-    """The result of a reversal: bit_exact, distance, and the summary of `hamflow reverse --json`."""
+    """The result of reverse().
+
+    Attributes
+    ----------
+    status : str
+    bit_exact : bool
+        Whether the reversal ends at the start, bit for bit.
+    distance : float or None
+        The distance from the start; None if the reversal did not finish.
+    summary : dict
+        The summary that `hamflow reverse --json` prints.
+    """
 
     def __init__(self, text: str) -> None:
         self.summary: dict[str, Any] = json.loads(text)
@@ -428,9 +481,15 @@ def reverse(scenario: Any, /) -> Reversal:
     ----------
     scenario : Scenario, dict of tables, or name of a TOML file
 
+    Returns
+    -------
+    Reversal
+
     Raises
     ------
-    Rejection, KeyboardInterrupt
+    Rejection
+        If the scenario is wrong.
+    KeyboardInterrupt
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Scenarios: everything that a run needs."""
+"""Scenarios: the complete input of a run."""
 
 from __future__ import annotations
 
@@ -16,18 +16,21 @@ class Scenario:
     Parameters
     ----------
     tree : mapping, optional
-        All tables, {"problem": {...}, "method": {...}, "run": {...}}; each may have the type of the keyword below.
+        All tables, {"problem": {...}, "method": {...}, "run": {...}}. Each may have the type of the keyword below, and
+        keywords replace its tables.
     problem : Problem or mapping, optional
-        A problem with its start, as from `Problem.at`.
+        A problem with its start, as `Problem.at` returns it.
     method : str or mapping, optional
-        "stv4", "cg(1,5)", or a table.
+        A name such as "stv4" or "cg(1,5)", or a table.
     run, output : mapping, optional
-        Their tables. Numbers may be texts: "2*pi/100".
+        The tables [run] and [output]. Numbers may be texts: "2*pi/100".
 
     Raises
     ------
     Rejection
-        With everything that is wrong, before anything runs.
+        If the scenario is wrong. It lists all errors.
+    Error
+        If a table has the wrong type.
 
     Examples
     --------
@@ -50,18 +53,44 @@ class Scenario:
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Scenario:
-        """The scenario of a TOML file."""
+        """Reads a scenario from a TOML file.
+
+        Raises
+        ------
+        FileError
+            If the file cannot be read.
+        Rejection
+            If the scenario is wrong.
+        """
         return cls.from_text(_core.read_file(os.fspath(file)), os.fspath(file))
 
     @classmethod
     def from_text(cls, text: str, name: str = "scenario") -> Scenario:
-        """The scenario of a TOML text; messages use `name` for the file."""
+        """Reads a scenario from TOML text. Messages show `name` in place of a file name.
+
+        Raises
+        ------
+        Rejection
+            If the scenario is wrong.
+        """
         self = cls.__new__(cls)
         self._read(text, name)
         return self
 
     def set(self, key: str, value: Any) -> None:
-        """Sets one key by its dotted path, such as "run.steps"; all is checked again."""
+        """Sets one key, and checks the whole scenario again.
+
+        Parameters
+        ----------
+        key : str
+            A dotted path, such as "run.steps".
+        value : number, str, bool, sequence or mapping
+
+        Raises
+        ------
+        Rejection
+            If the new scenario is wrong; the old one stays.
+        """
         if not isinstance(key, str):
             raise TypeError(f"key: found {shown(key)}; allowed a text such as \"run.steps\"")
         self._read(self._core.text, self._name, [f"{key}={_core.value_text(value)}"])
@@ -78,12 +107,12 @@ class Scenario:
 
     @property
     def coordinates(self) -> list[str]:
-        """Names of q."""
+        """Names of the coordinates."""
         return list(self._core.coordinates)
 
     @property
     def momenta(self) -> list[str]:
-        """Names of p."""
+        """Names of the momenta."""
         return list(self._core.momenta)
 
     def __str__(self) -> str:
@@ -98,7 +127,7 @@ class Scenario:
 
 
 def tables_of(tree: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables of a scenario, each a dict of its own; a method may be its name, a problem a Problem."""
+    """Copies the tables of a scenario into dicts. A method may be given by its name, a problem as a Problem."""
     tables: dict[str, Any] = {}
     for name, table in tree.items():
         if name == "method" and isinstance(table, str):
@@ -113,7 +142,7 @@ def tables_of(tree: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def scenario_of(given: Any) -> Scenario:
-    """A scenario from a Scenario, a dict, or the name of a file."""
+    """Returns the scenario that a Scenario, a dict or the name of a file describes."""
     if isinstance(given, Scenario):
         return given
     text, name = text_of(given)
@@ -121,7 +150,7 @@ def scenario_of(given: Any) -> Scenario:
 
 
 def text_of(given: Any) -> tuple[str, str]:
-    """The TOML text of a Scenario, a dict or a file, unchecked, and its name for messages."""
+    """Returns the unchecked TOML text of a Scenario, a dict or a file, and its name for messages."""
     if isinstance(given, Scenario):
         return str(given), given._name
     if isinstance(given, Mapping):

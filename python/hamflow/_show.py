@@ -1,4 +1,4 @@
-"""The catalogue as text."""
+"""Descriptions and citations of what the catalogue contains."""
 
 from __future__ import annotations
 
@@ -11,7 +11,16 @@ from ._scenario import Scenario
 
 
 class Shown:
-    """A description: `text`, as `hamflow show` prints it, and for a problem `formulas`, H as LaTeX."""
+    """The result of show(). A notebook shows it with H typeset.
+
+    Attributes
+    ----------
+    name : str
+    text : str
+        The text that `hamflow show` prints.
+    formulas : list of str
+        H as LaTeX; empty except for problems and scenarios.
+    """
 
     def __init__(self, name: str, text: str, formulas: list[str]) -> None:
         self.name, self.text, self.formulas = name, text, formulas
@@ -33,17 +42,16 @@ def show(name: str | os.PathLike[str] | Scenario, /) -> Shown:
     Parameters
     ----------
     name : str, Scenario, or name of a TOML file
-        Such as "cg", "cg(1,5)", "central-force", "energy-error".
+        For example "cg", "cg(1,5)", "central-force", "energy-error".
 
     Returns
     -------
     Shown
-        Its `text` is that of the command; a notebook shows it with H typeset.
 
     Raises
     ------
     Error
-        Where nothing has that name; the message proposes the nearest.
+        If nothing has this name; the message proposes the nearest name.
 
     Examples
     --------
@@ -65,7 +73,7 @@ def cite(cited: str | os.PathLike[str] | Scenario | Run, /) -> str:
     Parameters
     ----------
     cited : str, Scenario, Run, or name of a TOML file
-        Such as "kahan-li8", "cg(2,6)", "henon-heiles", or what `run` and `open` return.
+        For example "kahan-li8", "cg(2,6)", "henon-heiles", or the result of `run` or `open`.
 
     Returns
     -------
@@ -75,7 +83,7 @@ def cite(cited: str | os.PathLike[str] | Scenario | Run, /) -> str:
     Raises
     ------
     Error
-        If nothing has that name; the message proposes the nearest.
+        If nothing has this name; the message proposes the nearest name.
 
     Examples
     --------

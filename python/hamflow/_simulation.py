@@ -20,10 +20,16 @@ Numbers = npt.NDArray[np.float64]
 
 
 class Trajectory:
-    """States of a motion: t (n,), q (n, d), p (n, d), energy (n,), step (n,).
+    """Samples of a trajectory.
 
-    The arrays are read-only views of memory that C++ has filled; they keep it alive. With digits=True t, q, p, energy
-    are arrays of decimal.Decimal (dtype object).
+    The arrays are read-only views of memory of C++, and keep it alive. With digits=True t, q, p, energy are arrays of
+    decimal.Decimal (dtype object).
+
+    Attributes
+    ----------
+    t, q, p, energy, step : arrays of shape (n,), (n, d), (n, d), (n,), (n,)
+    coordinates, momenta : list of str
+        The names of the columns of q and p. [] takes these names, too.
     """
 
     def __init__(self, table: Any, coordinates: Sequence[str], momenta: Sequence[str], digits: bool = False) -> None:
@@ -36,7 +42,7 @@ class Trajectory:
 
     @property
     def step(self) -> npt.NDArray[np.int64]:
-        """Steps since the start, of shape (n,)."""
+        """The number of steps since the start, of shape (n,)."""
         steps: npt.NDArray[np.int64] = self._table["step"]
         return steps
 
@@ -64,7 +70,7 @@ class Trajectory:
         return len(self.t)
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame with a column for each name."""
+        """Returns a pandas.DataFrame with a column for each name in `columns`."""
         import pandas
 
         return pandas.DataFrame({name: self[name] for name in self.columns})
@@ -75,24 +81,32 @@ class Trajectory:
 
 
 class Simulation:
-    """One motion, advanced step by step.
+    """One trajectory, integrated step by step in memory.
 
     Parameters
     ----------
     problem : Problem, str or dict
-    method : str
-        Such as "stv4" or "cg(1,5)"; see `hamflow.methods`.
-    q, p : sequence of d numbers, optional
-        The start; texts are read in the arithmetic of the run. Default: the start of the problem.
+        A Problem, or what Problem() takes.
+    method : str or dict
+        A name such as "stv4" or "cg(1,5)", see `hamflow.methods`, or a table [method]. Default: "stv4".
     dt : float or str
-        Step size; negative: backward in time.
+        Step size. A negative step size integrates backward in time.
+    q, p : sequence of d numbers, optional
+        Coordinates and canonical momenta at the start. Texts are read in the arithmetic of the simulation. Default: the
+        start in the table [problem].
+    v : sequence of d numbers, optional
+        Velocities at the start, in place of p.
     arithmetic : str
         "double", "compensated", "double-double", "quad", "mp(50)" or "lattice".
+    threads : int
+        Number of threads for a problem of many particles.
+    parameters : dict, optional
+        Values of parameters of the problem, by name.
 
     Raises
     ------
     Rejection
-        With all errors of the request.
+        If the request is wrong. It lists all errors.
 
     Examples
     --------
@@ -138,14 +152,14 @@ class Simulation:
         return float(self._core.scenario.dt)
 
     def advance(self, steps: int) -> None:
-        """Takes `steps` steps; advance(1000) gives the bits of 1000 times advance(1).
+        """Takes `steps` steps. advance(1000) gives the same bits as advance(1) called 1000 times.
 
         Raises
         ------
         StepFailed
-            The simulation is then at the last good step.
+            If a step fails. The simulation stays at the last good step.
         KeyboardInterrupt
-            Likewise, at the step that was reached.
+            The simulation stays at the last step that it finished.
         """
         self._core.advance(steps)
 
@@ -155,7 +169,7 @@ class Simulation:
         Raises
         ------
         Error
-            If t is not a multiple; the message names the nearest ones. `sample(at=...)` takes any time.
+            If t is not a whole number of steps away, or is before the present time. `sample(at=...)` takes any time.
         """
         steps = (t - self.t) / self.dt
         if not np.isfinite(steps):
@@ -171,26 +185,31 @@ class Simulation:
 
     def sample(self, *, steps: int | None = None, every: int = 1, at: npt.ArrayLike | None = None,
                digits: bool = False) -> Trajectory:
-        """Advances and returns the states on the way.
+        """Advances the simulation and returns samples of the trajectory. Needs either `steps` or `at`.
 
         Parameters
         ----------
         steps : int
-            Number of steps to take; the present state and every `every`-th step are returned.
+            Number of steps to take. The samples are the present state and every `every`-th step.
         every : int
+            Number of steps from one sample to the next. Default: 1.
         at : array_like of times
-            In place of steps: the states at these times, by partial steps of the method; the bits of the trajectory
-            do not change.
+            Samples the states at these times, by partial steps of the method from the step before each time. Partial
+            steps do not change the trajectory. The simulation ends at the last step before the last time.
         digits : bool
-            Whether t, q, p, energy are arrays of decimal.Decimal with all digits of an arithmetic beyond double; `at`
-            may then be texts.
+            Whether t, q, p, energy are arrays of decimal.Decimal with all digits; `at` may then contain texts. Only
+            allowed in arithmetic with more digits than double.
+
+        Returns
+        -------
+        Trajectory
 
         Raises
         ------
         Error
-            With digits=True in double.
+            With digits=True, if the arithmetic has no more digits than double.
         StepFailed, KeyboardInterrupt
-            As advance().
+            As in advance().
         """
         if (steps is None) == (at is None):
             raise TypeError("sample takes steps= or at=")
@@ -203,34 +222,34 @@ class Simulation:
 
     @property
     def step(self) -> int:
-        """Steps since the start."""
+        """The number of steps since the start."""
         return int(self._core.step)
 
     @property
     def t(self) -> float:
-        """Time."""
+        """The present time."""
         return float(self._core.t)
 
     @property
     def q(self) -> Numbers:
-        """Coordinates, a copy of shape (d,)."""
+        """The coordinates, a copy of shape (d,)."""
         q: Numbers = self._core.q
         return q
 
     @property
     def p(self) -> Numbers:
-        """Canonical momenta, a copy of shape (d,)."""
+        """The canonical momenta, a copy of shape (d,)."""
         p: Numbers = self._core.p
         return p
 
     @property
     def energy(self) -> float:
-        """H(q, p)."""
+        """H at the present state."""
         return float(self._core.energy)
 
     @property
     def digits(self) -> SimpleNamespace:
-        """t, q, p, energy with all their digits, as decimal.Decimal, in arithmetic beyond double."""
+        """t, q, p, energy with all digits, as decimal.Decimal. Raises Error if they are doubles."""
         all_digits = self._core.digits
         if not all_digits["q"]:
             raise Error("digits exist only in arithmetic with more digits than double; use t, q, p, energy")
@@ -239,24 +258,24 @@ class Simulation:
 
     @property
     def energy_error(self) -> SimpleNamespace:
-        """max_error, scale and max_relative_error over every step, and the energies initial and final."""
+        """The energies `initial` and `final`, and `max_error`, `scale` and `max_relative_error` over all steps."""
         initial, final, worst, scale = self._core.energy_range
         return SimpleNamespace(initial=initial, final=final, max_error=worst, scale=scale,
                                max_relative_error=worst / scale if scale > 0 else (0.0 if worst == 0 else float("nan")))
 
     @property
     def invariants(self) -> dict[str, SimpleNamespace]:
-        """initial, final and max_error of each conserved quantity, by name."""
+        """For each conserved quantity, by name: its `initial` and `final` value, and the `max_error` over all steps."""
         return {name: SimpleNamespace(initial=initial, final=final, max_error=worst)
                 for name, initial, final, worst in self._core.invariants}
 
     @property
     def evaluations(self) -> dict[str, int]:
-        """Numbers of evaluations since the start."""
+        """The numbers of evaluations since the start, by their kind."""
         return dict(self._core.evaluations)
 
     def reverse(self) -> None:
-        """Negates the momenta, so that the motion runs backward."""
+        """Reverses the momenta, so that the trajectory is followed backward."""
         self._core.negate_momenta()
 
     def copy(self) -> Simulation:
@@ -271,26 +290,26 @@ class Simulation:
         return self.copy()
 
     def save(self) -> bytes:
-        """The complete state as bytes, from which load() continues with the same bits."""
+        """Returns the complete state as bytes, from which load() continues bit for bit."""
         return bytes(self._core.save())
 
     def load(self, saved: bytes) -> None:
-        """Continues from the bytes of save(), bit for bit.
+        """Restores the state that save() returned, from which the simulation continues bit for bit.
 
         Raises
         ------
         Error
-            If the bytes belong to another kind of simulation or are damaged; then nothing has changed.
+            If the bytes are damaged or belong to another kind of simulation. The simulation is then unchanged.
         """
         self._core.load(saved)
 
     def observe(self, *, every: int = 1) -> Callable[[Callable[[Simulation], Any]], Callable[[Simulation], Any]]:
-        """Decorator: calls the function with the simulation every `every` steps.
+        """Decorates a function that is called with the simulation after every `every` steps.
 
-        If it returns "stop", advance(), integrate() and sample() end at that step; see `step`.
+        If the function returns "stop", advance(), integrate() and sample() end at this step; `step` is its number.
         """
         def decorate(function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
-            # C++ keeps no reference to the function or the simulation, as a cycle through C++ is never freed.
+            # C++ gets only a weak reference to the simulation, because Python cannot free a cycle through C++.
             itself, place = weakref.ref(self), len(self._observers)
 
             def told() -> Any:

@@ -1,4 +1,4 @@
-"""Ensembles: a scenario for many values of some of its keys."""
+"""Sweeps: one scenario for many values of some of its keys."""
 
 from __future__ import annotations
 
@@ -18,7 +18,15 @@ from ._scenario import scenario_of
 
 
 class Sweep:
-    """The members of a sweep as columns: ens["final/q"], ens["energy/max_error"]."""
+    """The result of sweep(): a table with one row for each member. [] takes column names, such as "final/q".
+
+    Attributes
+    ----------
+    summary : dict
+        The summary that `hamflow sweep --json` prints.
+    failures : list of str
+        The messages of members that failed.
+    """
 
     def __init__(self, found: Mapping[str, Any]) -> None:
         self._found = {"members": found["members"], "section": found["section"], "json": found["json"],
@@ -39,7 +47,7 @@ class Sweep:
 
     @property
     def section(self) -> States | None:
-        """The points of all members' sections: member, t, q, p; None without run.section."""
+        """The section points of all members (member, t, q, p), or None without run.section."""
         return States(self._section, "section/") if self._section.columns else None
 
     def __getitem__(self, name: str) -> Any:
@@ -58,7 +66,7 @@ class Sweep:
         return (Sweep, (self._found,))
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame with a row for each member."""
+        """Returns a pandas.DataFrame with a row for each member."""
         import pandas
 
         columns: dict[str, Any] = {}
@@ -71,14 +79,14 @@ class Sweep:
         return pandas.DataFrame(columns)
 
     def plot(self, ax: Any = None, *, colour: str = "energy/max_error") -> Any:
-        """Draws a column over the key that was varied, or in colours over two keys.
+        """Draws a column as a curve over one varied key, or as colours over two varied keys.
 
         Parameters
         ----------
         ax : matplotlib axes, optional
-            Default: new ones.
+            Default: new axes.
         colour : str
-            A column of numbers, such as "observables/lyapunov1".
+            The column, with one number for each member, such as "observables/lyapunov1".
 
         Returns
         -------
@@ -87,7 +95,7 @@ class Sweep:
         Raises
         ------
         Error
-            If the column has no numbers, or if more than two keys were varied.
+            If the column has no numbers, or if other than one or two keys of numbers were varied.
         """
         keys = [name for name in self.columns if name.startswith("varied/") and self._is_number(name)]
         if len(keys) not in (1, 2):
@@ -106,7 +114,7 @@ class Sweep:
         if len(keys) == 1:
             words = [name for name in self.columns if name.startswith("varied/") and name not in keys]
             labels = np.array([", ".join(str(self[name][k]) for name in words) for k in range(len(self))])
-            for label in dict.fromkeys(labels.tolist()):  # a line for each method, say
+            for label in dict.fromkeys(labels.tolist()):  # for example, one curve for each method
                 own = np.flatnonzero(labels == label)
                 own = own[np.argsort(x[own], kind="stable")]
                 ax.plot(x[own], values[own], ".-", label=label)
@@ -167,32 +175,42 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
     ----------
     scenario : Scenario, dict of tables, or name of a TOML file
     varied : mapping of dotted key to array, list or text
-        {"problem.initial.q[1]": np.linspace(-.4, .6, 100)}; a text as on the command line, "a:b:n" or a formula of
-        other keys. Several keys form a Cartesian product; the last one varies fastest.
+        For example {"problem.initial.q[1]": np.linspace(-.4, .6, 100)}. A text has the form of the command line:
+        "a:b:n", or a formula of other keys. Several keys form a Cartesian product; the last one varies fastest.
     zip : bool
         Combine the n-th values of all keys instead of forming the product.
     threads : int, optional
-        Default: all cores. The bits do not depend on it.
+        Number of threads. Default: one for each core. Results have the same bits with any number.
     out : path, optional
         Output directory. Default: nothing is written.
     existing : "error", "replace" or "resume"
-        What to do with an existing folder. "resume" runs the members that are not finished.
+        What to do if the output directory exists. "resume" runs only the members that are not finished.
     progress : bool or callable(done, total), optional
-        Of steps of all members. Default: on a terminal, for what takes longer than 2 s.
+        Whether to show progress, or a function that is called with the number of steps taken and of all steps of all
+        members. Default: show it on a terminal or in a notebook, if the sweep takes longer than 2 s.
     client : dask.distributed.Client, optional
-        Runs the members on the workers of a Dask cluster, where `import hamflow` has to give the same version. The
-        bits do not depend on it, and `threads` is not used.
+        Runs the members on the workers of a Dask cluster, on which the same version of hamflow has to be installed.
+        Results have the same bits as without a cluster. `threads` is not used.
     shard : str, optional
         "3/64": run only the members k with k mod 64 = 3, in a folder of their own within `out`, which is needed. "auto"
         takes the numbers from Slurm, Open MPI or PMI. Afterwards the same call without `shard`, with
         existing="resume", reads what all shards have finished, runs the rest and writes the table.
 
+    Returns
+    -------
+    Sweep
+
     Raises
     ------
-    Rejection, FileError
-    KeyboardInterrupt, Error
-        Also exceptions of `progress`. The attribute `partial` is the sweep so far, after Ctrl-C (None if members were still
-        being read) and if workers of the cluster failed.
+    Rejection
+        If the scenario or a varied key is wrong. It lists all errors, and is raised before anything runs.
+    FileError
+        If a file or folder cannot be read or written.
+    Error
+        If workers of the cluster fail. Its attribute `partial` is the sweep with the members that finished.
+    KeyboardInterrupt
+        Its attribute `partial` is the sweep with the members that finished, or None if members were still being read.
+        An exception that `progress` raises has the same attribute.
 
     Examples
     --------
@@ -217,7 +235,7 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
         asked = [_varied(key, values) for key, values in varied.items()]
         found = _core.sweep(str(wanted), asked, zip, threads or 0, shard or "", Path(out) if out is not None else "",
                             existing, progress_of_both(progress))
-    except KeyboardInterrupt as error:  # while members were read
+    except KeyboardInterrupt as error:  # the members are still being read
         raise stopped(error, None) from None
     result = Sweep(found)
     if found["interrupted"] is not None:
@@ -226,7 +244,7 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
 
 
 def _shard(text: str, varied: list[str], zip: bool, index: int, count: int) -> bytes:  # noqa: A002
-    """The work of one worker: the members index, index + count, ... of a sweep."""
+    """Runs the members index, index + count, ... of a sweep on a worker, and returns their results as bytes."""
     return bytes(_core.sweep_shard(text, varied, zip, index, count))
 
 
@@ -236,10 +254,10 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
 
     gathered = _core.GatheredSweep(text, varied, zip, Path(out) if out is not None else "", existing)
     members = gathered.members
-    # Several parts for each thread: a part of a worker that dies is run again on another one.
+    # Four parts for each thread, because Dask repeats the whole part of a worker that dies on another worker.
     count = max(1, min(members, 4 * sum(client.nthreads().values())))
     told = progress_of_both(progress)
-    completed: Any = as_completed  # has no types
+    completed: Any = as_completed  # distributed has no annotations
     futures = client.map(_shard, [text] * count, [varied] * count, [zip] * count, range(count),
                          [count] * count, pure=False)
     trouble: BaseException | None = None
@@ -248,7 +266,7 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
             gathered.take(future.result())
             if told is not None:
                 told(members * done // count, members)
-    except (KeyboardInterrupt, Exception) as error:  # finished members are kept
+    except (KeyboardInterrupt, Exception) as error:  # the result keeps the finished members
         trouble = error
         client.cancel(futures)
     result = Sweep(gathered.found())
@@ -263,17 +281,22 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
 
 def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, *, dt: float | str, steps: int,
               parameters: Mapping[str, Any] | None = None) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Takes `steps` steps from each of n starts, in lanes and on all cores.
+    """Integrates n starts over `steps` steps, in SIMD lanes and on all cores, and returns their final states.
 
     Parameters
     ----------
     problem : Problem, str or dict
+        A Problem, or what Problem() takes.
     method : str
+        A name such as "stv4" or "cg(1,5)".
     q, p : array_like of shape (n, d)
+        Coordinates and canonical momenta of the starts.
     dt : float or str
+        Step size.
     steps : int
+        Number of steps.
     parameters : mapping, optional
-        Values for all, or arrays of n.
+        Values of parameters by name: one for all starts, or an array with one for each start.
 
     Returns
     -------
@@ -281,8 +304,10 @@ def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, 
 
     Raises
     ------
+    Rejection
+        If the request is wrong.
     Error
-        If a member fails; the message names the first one.
+        If a member fails; the message names the first one. Its attribute `partial` is the sweep.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Functions of symbols: what `Problem(function)` records of a Python function."""
+"""Symbols, with which `Problem(function)` records the formula of a Python function."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _REFUSED = "a Hamiltonian is traced once with symbols, for which {} has no value
 
 
 class Symbol:
-    """An expression of coordinates, momenta and parameters, as a text of hamflow."""
+    """An expression of coordinates, momenta and parameters, kept as text in hamflow's notation."""
 
     __slots__ = ("text",)
     __array_priority__ = 1000.0
@@ -111,7 +111,7 @@ _FORMS |= {"arcsin": "asin({0})", "arccos": "acos({0})", "arctan": "atan({0})", 
 
 
 def text_of(x: Any) -> str:
-    """The text of a symbol or number; a number keeps the value that it has in double."""
+    """Returns the text of a symbol or number. The text of a float is read as the same double."""
     if isinstance(x, Symbol):
         return x.text
     if isinstance(x, (bool, np.bool_)):
@@ -134,7 +134,7 @@ def _function(name: str, count: int = 1) -> Callable[..., Any]:
             raise TypeError(f"{name} takes {count} argument{'s' if count > 1 else ''}, found {len(x)}")
         try:
             return getattr(np, ufunc)(*x)
-        except AttributeError as error:  # NumPy looks for a method of this name
+        except AttributeError as error:  # for an object of unknown type NumPy looks for a method of this name
             found = ", ".join(type(each).__name__ for each in x)
             raise TypeError(f"{name}: found {found}; allowed numbers, arrays of numbers, and symbols") from error
 
@@ -150,7 +150,7 @@ exp, log, sqrt = _function("exp"), _function("log"), _function("sqrt")
 
 
 def traced(function: Callable[..., Any], coordinates: list[str], momenta: list[str]) -> str:
-    """The text of H from a call with symbols."""
+    """Calls H with arrays of symbols, and returns the text of the result."""
     q = np.array([Symbol(name) for name in coordinates], dtype=object)
     p = np.array([Symbol(name) for name in momenta], dtype=object)
     found = function(q, p)

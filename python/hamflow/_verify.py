@@ -10,20 +10,22 @@ from ._errors import stopped
 
 
 class Verification:
-    """Claims of methods, with the measurements.
+    """The result of verify(): the claims of methods beside their measurements.
 
     Attributes
     ----------
     agrees : bool or None
-        Whether every claim agrees with its measurement; None where one is unclear and none is refuted.
+        True if all claims agree with their measurements, False if one is refuted, else None: a claim is undecided.
     claims : list of dict
-        One for each property of each method: method, property, claimed, measured, agrees and, where something was not
+        One for each property of each method: method, property, claimed, measured, agrees and, if something was not
         measured, reason.
     rows : list of dict
         One for each method, with the names and values of `hamflow verify --json`: method, reference, agrees,
         properties, certificate, measurements.
+    summary : dict
+        The whole JSON.
     text : str
-        The table of the command.
+        The table that the command prints.
     """
 
     def __init__(self, found: dict[str, Any]) -> None:
@@ -35,7 +37,7 @@ class Verification:
 
     @property
     def agrees(self) -> bool | None:
-        """Whether every claim agrees with its measurement."""
+        """True if all claims agree with their measurements, False if one is refuted, else None."""
         verdicts = [row["agrees"] for row in self.rows]
         return False if False in verdicts else None if None in verdicts or not verdicts else True
 
@@ -54,11 +56,11 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
     Parameters
     ----------
     methods : str or list of str
-        Such as "cg(1,5)".
+        Names such as "cg(1,5)".
     problem : str, optional
-        A problem of the catalogue. Default: pendulum and henon-heiles, or what the method needs.
+        A problem of the catalogue. Default: pendulum and henon-heiles, or a problem that the method can integrate.
     all : bool
-        Every method of the catalogue; takes minutes.
+        Measures every method of the catalogue, in place of `methods`. This takes minutes.
 
     Returns
     -------
@@ -67,9 +69,11 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
     Raises
     ------
     Rejection
-        For unknown methods or problems.
+        If a method or the problem is unknown.
+    TypeError
+        Unless exactly one of `methods` and `all` is given.
     KeyboardInterrupt
-        Its attribute `partial` has the methods that were measured.
+        Its attribute `partial` is the verification of the methods that were measured until then.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-// What each file of this folder adds to the module.
+// One function for each file of this folder, which adds its classes and functions to the module.
 #pragma once
 
 #include <pybind11/pybind11.h>

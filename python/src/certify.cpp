@@ -1,4 +1,4 @@
-// Other people's energies and integrators.
+// Certificates for the energies and the integrators of other programs.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -27,7 +27,7 @@ py::array_t<double> array_with(const std::vector<double>& numbers) {
 
 std::string type_of(const py::handle& object) { return py::type::of(object).attr("__name__").cast<std::string>(); }
 
-/// What a step returned in the place of q or p.
+/// Converts what a step returned for q or p.   @throws Error if it has another shape or type
 std::vector<double> returned_numbers(const py::handle& object, const char* name, std::size_t size) {
   const std::string allowed =
       "; allowed an array of " + std::to_string(size) + " numbers, of shape (" + std::to_string(size) + ",)";
@@ -43,7 +43,7 @@ std::vector<double> returned_numbers(const py::handle& object, const char* name,
   return numbers_of(Numbers(array));
 }
 
-/// Calls a Python function (q, p, h), which returns the new (q, p) or changes its arguments.
+/// Wraps a Python function (q, p, h), which returns the new (q, p) or changes its arguments in place.
 ForeignStep step_of(const py::function& function) {
   return [function](std::vector<double>& q, std::vector<double>& p, double h) {
     const py::array_t<double> q_given = array_with(q);
@@ -52,7 +52,7 @@ ForeignStep step_of(const py::function& function) {
     try {
       found = function(q_given, p_given, h);
     } catch (const py::error_already_set& error) {
-      if (!error.matches(PyExc_Exception)) throw;  // Ctrl-C
+      if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt is no subclass of Exception
       throw Error("the step raised " + error.type().attr("__name__").cast<std::string>() + ": " +
                   py::str(error.value()).cast<std::string>() + " (h = " + py::str(py::float_(h)).cast<std::string>() +
                   ")");

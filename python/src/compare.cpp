@@ -1,4 +1,4 @@
-// Work and precision of several methods.
+// Work-precision comparisons of methods.
 #include "hamflow/workflow/compare.hpp"
 
 #include <pybind11/functional.h>
@@ -18,7 +18,7 @@ namespace hamflow::python {
 
 namespace {
 
-/// @param progress called with the runs that are done, and with how many there are; may be empty
+/// @param progress called with the number of finished runs and of all runs; may be empty
 py::dict compare_in_python(const ComparisonInput& input, const std::filesystem::path& folder,
                            const std::string& existing,
                            const std::function<void(std::int64_t, std::int64_t)>& progress) {

@@ -1,4 +1,4 @@
-// C++ exceptions as the classes of hamflow/_errors.py.
+// Translates C++ exceptions to the classes of hamflow/_errors.py.
 #include <filesystem>
 
 #include "bindings.hpp"
@@ -11,7 +11,7 @@ namespace hamflow::python {
 
 namespace {
 
-/// Raises a class of hamflow._errors.
+/// Raises an exception of the named class of hamflow._errors.
 template <class... Args>
 void raise(const char* name, Args&&... args) {
   try {

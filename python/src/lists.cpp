@@ -1,4 +1,4 @@
-// What there is: methods, problems, figures.
+// Lists and descriptions of methods, problems and figures.
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"

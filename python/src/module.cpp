@@ -4,7 +4,7 @@
 
 namespace {
 
-/// In messages the options of the command are the arguments that Python has in their place.
+/// Returns the Python argument that corresponds to an option of the command, for messages.
 std::string argument_named(std::string_view option) {
   if (option == "resume") return "existing=\"resume\"";
   if (option == "force") return "existing=\"replace\"";
@@ -19,8 +19,8 @@ std::string set_in_python(const std::string& key, const std::string& value) {
   return "Scenario.set(\"" + key + "\", " + value + ")";
 }
 
-/// "list methods" is methods(), "show NAME" is show("NAME"), "plot --kind KIND --y A,B" is Run.plot("KIND", y=["A",
-/// "B"]).
+/// Returns the Python call that corresponds to a command, for messages: methods() for "list methods", show("NAME") for
+/// "show NAME", Run.plot("KIND", y=["A", "B"]) for "plot --kind KIND --y A,B".
 std::string function_named(std::string_view words) {
   const std::string_view drawn = "plot --kind ";
   const std::string_view columns = " --y ";

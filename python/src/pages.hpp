@@ -1,4 +1,4 @@
-// Figures as data: what a page of panels shows, for matplotlib.
+// Converts the contents of a figure to dicts and arrays, which python/hamflow/_page.py draws with matplotlib.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -7,7 +7,7 @@
 
 namespace hamflow::python {
 
-/// {"panels": [...], "columns", "legend", "notes", "title"}; curves are arrays.
+/// Returns {"panels": [...], "columns", "legend", "notes", "title"}. Curves are arrays.
 pybind11::dict dict_of(const figures::Page& page);
 
 }  // namespace hamflow::python

@@ -1,4 +1,4 @@
-// What is known of a problem without a start.
+// The class Problem: a Hamiltonian without a start.
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Rows of states: of shape (d,) one, of shape (n, d) n.
+/// The rows of an array: one for the shape (d,), n for the shape (n, d).
 struct Rows {
   const double* data;
   std::size_t count;
@@ -31,7 +31,7 @@ Rows rows_of(const Array& array, const char* name) {
               " dimensions; allowed shapes (d,) and (n, d)");
 }
 
-/// Checks that q and p have one shape, which the problem takes.
+/// Checks that q and p have the same shape, and that the problem has this number of coordinates.
 std::pair<Rows, Rows> states_of(const ChosenProblem& problem, const Array& q, const Array& p) {
   const std::pair<Rows, Rows> rows{rows_of(q, "q"), rows_of(p, "p")};
   if (q.ndim() != p.ndim() || rows.first.count != rows.second.count || rows.first.width != rows.second.width) {

@@ -1,4 +1,4 @@
-// Whole runs, as the command carries them out.
+// Complete runs, as the command `hamflow run` makes them.
 #include "hamflow/workflow/run.hpp"
 
 #include <pybind11/functional.h>
@@ -23,7 +23,7 @@ namespace hamflow::python {
 
 namespace {
 
-/// A table of a run, which keeps all of them alive.
+/// Returns one table of a run. It keeps all tables of the run alive.
 std::shared_ptr<Table> part_of(const std::shared_ptr<RunTables>& tables, Table& part) {
   return std::shared_ptr<Table>(tables, &part);
 }

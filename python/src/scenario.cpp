@@ -38,7 +38,7 @@ void bind_scenario(py::module_& m) {
       });
   m.def("scenario_text", [](const py::dict& tree) { return scenario_text(table_of(tree)); });
   m.def("value_text", [](const py::handle& value) {
-    // In a list a table is written within its line.
+    // Inside a list TOML writes a table on one line, which is the form needed here.
     const bool is_table = py::isinstance<py::dict>(value);
     Value written = value_of(value, "value");
     if (is_table) written = Value::List{std::move(written)};

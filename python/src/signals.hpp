@@ -1,4 +1,4 @@
-// Ctrl-C while C++ computes without the interpreter's lock.
+// Handles Ctrl-C while C++ computes without the interpreter's lock.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,14 +10,14 @@
 
 namespace hamflow::python {
 
-/// Asks Python for signals, at most every 50 ms, and calls what the user wants to be told. What Python raises is kept,
-/// the computation stops at the next step boundary, and rethrow() raises it again there.
+/// Checks Python's signals at most every 50 ms, and calls the user's progress function. If either raises, go_on()
+/// returns false, so that the computation stops after its step, and rethrow() raises the exception again.
 class Interrupts {
  public:
-  /// @param told called with the steps taken; may be empty
+  /// @param told the progress function, called with the number of steps taken; may be empty
   explicit Interrupts(std::function<void(std::int64_t)> told = {}) : told_(std::move(told)) {}
 
-  /// False: stop. To be called without the lock.
+  /// Returns false if the computation has to stop. The caller has released the lock.
   bool go_on(std::int64_t steps) {
     const Clock::time_point now = Clock::now();
     if (raised_) return false;
@@ -33,8 +33,8 @@ class Interrupts {
     return !raised_;
   }
   bool was_interrupted() const { return raised_ != nullptr; }
-  /// The exception that stopped the computation, a KeyboardInterrupt or what the user's function raised; None without
-  /// one. To be called with the lock.
+  /// Returns the exception that stopped the computation (KeyboardInterrupt, or what the progress function raised), or
+  /// None. The caller holds the lock.
   pybind11::object raised() const {
     try {
       rethrow();
@@ -45,7 +45,7 @@ class Interrupts {
     }
     return pybind11::none();
   }
-  /// To be called with the lock.
+  /// Raises the exception that stopped the computation, if there is one. The caller holds the lock.
   void rethrow() const {
     if (raised_) std::rethrow_exception(raised_);
   }

@@ -1,4 +1,4 @@
-// A simulation step by step.
+// The class Simulation, which is advanced step by step.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -25,10 +25,10 @@ namespace hamflow::python {
 
 namespace {
 
-/// Fills a table with the states of some steps, or of some times.
+/// Fills a table with the states at regular steps, or at given times.
 class Sampler final : public Observer {
  public:
-  /// @param digits whether columns digits/... of texts are kept beside those of doubles
+  /// @param digits whether to add columns digits/... with all digits as text
   Sampler(const Scenario& scenario, std::int64_t first, std::int64_t every, std::int64_t last, bool digits)
       : first_(first), every_(every), last_(last), digits_(digits) {
     const std::size_t longest = longest_digits(scenario.request.arithmetic);
@@ -53,14 +53,14 @@ class Sampler final : public Observer {
     const std::int64_t samples = (last - first) / every + 1;
     try {
       for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>(samples) + 1);
-    } catch (const std::exception&) {  // no memory, or no vector has this length
+    } catch (const std::exception&) {  // std::bad_alloc or std::length_error
       throw Error("steps, every: found " + std::to_string(samples) +
                   " samples, which do not fit into memory; allowed fewer steps, or a larger every");
     }
   }
   std::int64_t next_due(std::int64_t step) const override {
     if (step <= first_) return first_;
-    const std::int64_t samples = (step - first_ - 1) / every_ + 1;  // no sum of steps may overflow
+    const std::int64_t samples = (step - first_ - 1) / every_ + 1;  // rounds up without an overflow
     return samples <= (last_ - first_) / every_ ? first_ + samples * every_ : never;
   }
   Verdict observe(const Frame& frame) override {
@@ -88,12 +88,12 @@ class Sampler final : public Observer {
   bool digits_;
 };
 
-/// Calls a function of Python every so many steps.
+/// Calls a Python function after every `every` steps.
 class Watcher final : public Observer {
  public:
   Watcher(std::int64_t every, py::object told) : every_(every), told_(std::move(told)) {}
   std::int64_t next_due(std::int64_t step) const override {
-    const std::int64_t calls = (std::max(step, seen_ + 1) - 1) / every_ + 1;  // no sum of steps may overflow
+    const std::int64_t calls = (std::max(step, seen_ + 1) - 1) / every_ + 1;  // rounds up without an overflow
     return calls <= never / every_ ? calls * every_ : never;
   }
   Verdict observe(const Frame& frame) override {
@@ -126,7 +126,7 @@ class Watcher final : public Observer {
   throw py::error_already_set();
 }
 
-/// One simulation, used by one thread at a time.
+/// A simulation that one thread at a time may use.
 class PySimulation {
  public:
   explicit PySimulation(std::shared_ptr<Scenario> scenario)
@@ -136,8 +136,8 @@ class PySimulation {
   std::shared_ptr<Scenario> shared_scenario() const { return scenario_; }
   Simulation& simulation() const { return *simulation_; }
 
-  /// While it lives, another thread that wants to use the simulation gets an error. A function that observes it is on
-  /// the thread that advances it, and may look.
+  /// While an InUse exists, a call from another thread throws an Error. An observing function runs on the thread that
+  /// advances the simulation, and may read its state.
   class InUse {
    public:
     explicit InUse(const PySimulation& one, bool only_looks = true) : user_(one.user_) {
@@ -160,10 +160,10 @@ class PySimulation {
     bool is_first_;
   };
 
-  /// @return false where an observer has said to stop
+  /// @return false if an observer stopped the simulation
   bool advance(std::int64_t steps, Observer* more) {
     require_steps(steps);
-    if (steps < 100 && has_short_steps() && more == nullptr && watchers_.empty()) {  // over before a signal is due
+    if (steps < 100 && has_short_steps() && more == nullptr && watchers_.empty()) {  // too short to need Ctrl-C
       const InUse use(*this, false);
       const Outcome reached = simulation_->advance(steps);
       if (is_failure(reached)) raise_failure(*simulation_, reached);
@@ -190,7 +190,7 @@ class PySimulation {
     return simulation_->step() == end;
   }
 
-  /// Seconds of `calls` times `steps` steps without Python, for bench/python_bench.py.
+  /// Measures the seconds of `calls` calls with `steps` steps each without Python, for bench/python_bench.py.
   double seconds_without_python(std::int64_t steps, std::int64_t calls) {
     require_steps(steps);
     const InUse use(*this, false);
@@ -212,8 +212,8 @@ class PySimulation {
     return std::make_shared<Table>(sampler.take());
   }
 
-  /// The states at given times, by partial steps; the simulation ends at the last step before the last time. Where an
-  /// observer has said to stop, those until then.
+  /// Samples the states at given times, by partial steps. The simulation ends at the last step before the last time, or
+  /// where an observer stops it; then the table ends there, too.
   std::shared_ptr<Table> sample_at(const std::vector<std::string>& times, bool digits) {
     Sampler sampler(*scenario_, 0, 1, static_cast<std::int64_t>(times.size()), digits);
     const double dt = scenario_->dt;
@@ -282,7 +282,7 @@ class PySimulation {
     throw Error("steps: found " + std::to_string(steps) +
                 "; allowed from 0 to 2^53; to integrate backward, call reverse() first");
   }
-  /// Whether 100 steps take no more than some milliseconds.
+  /// Whether 100 steps take only some milliseconds: a small problem in double arithmetic.
   bool has_short_steps() const {
     return scenario_->start_q.size() <= 32 && digits_beyond_double(scenario_->request.arithmetic) == 0;
   }

@@ -1,4 +1,4 @@
-// A scenario for many values of some of its keys.
+// Sweeps: one scenario for many values of some of its keys.
 #include "hamflow/workflow/sweep.hpp"
 
 #include <pybind11/functional.h>
@@ -20,7 +20,7 @@ namespace hamflow::python {
 
 namespace {
 
-/// A sweep that has been checked, with its folder. To be called without the lock.
+/// Checks a sweep and creates its folder. The caller has released the interpreter's lock.
 std::unique_ptr<ScenarioSweep> checked_sweep(const SweepRequest& request, const std::filesystem::path& folder,
                                              Existing existing) {
   Interrupts interrupts;
@@ -92,7 +92,8 @@ py::dict sweep_in_python(const std::string& text, const std::vector<std::string>
   return found_of(*sweep, report, interrupted);
 }
 
-/// "KEY=x1,x2,...": a key and its values, as the command takes them, without an object of Python for each.
+/// Writes "KEY=x1,x2,...", as the command takes a key and its values. Going through C++ avoids a Python object for each
+/// value.
 std::string varied_text(const std::string& key, const py::array_t<double, py::array::c_style>& values) {
   if (values.ndim() != 1) {
     throw Error(key + ": found an array with " + std::to_string(values.ndim()) + " dimensions; allowed one");
@@ -118,7 +119,7 @@ py::bytes sweep_shard(const std::string& text, const std::vector<std::string>& v
   return {reinterpret_cast<const char*>(finished.data()), finished.size()};
 }
 
-/// A sweep whose members are run elsewhere.
+/// A sweep whose members are run by other processes. It gathers their results.
 class GatheredSweep {
  public:
   GatheredSweep(const std::string& text, const std::vector<std::string>& varied, bool zip,

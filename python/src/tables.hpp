@@ -1,4 +1,4 @@
-// Columns as arrays of NumPy that share their memory.
+// Shows columns of tables as NumPy arrays, without a copy.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -8,14 +8,14 @@
 
 namespace hamflow::python {
 
-/// A read-only view of shape (rows,) or (rows, width), float64 or int64; of texts a list, or a list of lists.
-/// @param owner keeps the memory of the column alive
+/// Returns a read-only view of shape (rows,) or (rows, width), float64 or int64. A column of texts becomes a list, or a
+/// list of lists.   @param owner keeps the memory of the column alive
 pybind11::object array_of(const Column& column, const pybind11::handle& owner);
 
-/// A copy of shape (n,).
+/// Returns a copy of shape (n,).
 pybind11::array_t<double> array_of(const std::vector<double>& numbers);
 
-/// A table for pickle, and back.
+/// Converts a table to a tuple for pickle, and back.
 pybind11::tuple state_of(const Table& table);
 Table table_of_state(const pybind11::tuple& state);
 

@@ -10,10 +10,10 @@ bool is_a(const py::handle& object, const char* module, const char* name) {
   return py::isinstance(object, py::module_::import(module).attr(name));
 }
 
-/// Deeper than what any key takes; a list that contains itself has no end.
+/// No key needs a deeper value. The limit ends the recursion for a list that contains itself.
 constexpr int deepest = 100;
 
-/// @throws Error if the text has a surrogate without its partner, which no file can hold
+/// @throws Error if the text has a surrogate without its partner, which UTF-8 cannot represent
 std::string utf8_of(const py::handle& text, const std::string& key) {
   Py_ssize_t size = 0;
   const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
@@ -53,9 +53,9 @@ Value value_of(const py::handle& object, const std::string& key, int depth) {
   if (py::isinstance<py::float_>(object)) return object.cast<double>();
   if (py::isinstance<py::str>(object)) return utf8_of(object, key);
   if (py::isinstance<py::dict>(object)) return table_of(object.cast<py::dict>(), key, depth);
-  if (py::hasattr(object, "tolist")) {  // of NumPy: arrays and scalars
+  if (py::hasattr(object, "tolist")) {  // arrays and scalars of NumPy
     const py::object plain = object.attr("tolist")();
-    // A longdouble stays one.
+    // tolist() of a longdouble returns a longdouble again: calling it again would not end.
     if (!py::type::of(plain).is(py::type::of(object))) return value_of(plain, key, depth + 1);
   }
   if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object)) {

@@ -1,4 +1,4 @@
-// What methods claim, measured.
+// Measures the claims of methods.
 #include <pybind11/stl.h>
 
 #include <optional>

@@ -160,7 +160,7 @@ MpNumber power_of_two(mpfr_exp_t exponent) {
 }
 }  // namespace
 MpNumber Traits::epsilon() noexcept { return power_of_two(1 - static_cast<mpfr_exp_t>(MpDigits::bits())); }
-// Numbers of this thread overflow behind it (MpDigits).
+// Larger numbers overflow (MpDigits).
 MpNumber Traits::max() noexcept { return power_of_two(largest_exponent); }
 // Far inside MPFR's own range, which is at least 2^(-2^30).
 MpNumber Traits::min() noexcept { return power_of_two(-(mpfr_exp_t{1} << 28)); }

@@ -62,11 +62,11 @@ const bulk::Kernels& kernels_of(BulkSet set) {
   return set == BulkSet::avx2 ? bulk::avx2 : bulk::sse2;
 }
 
-/// The law in units of the coordinates, with the factors of the sums of a row.
+/// The law in the units of the coordinates, and the factors for the sums of a row.
 struct Scaled {
   bulk::Law law{};
-  double of_force;   // times c d
-  double of_energy;  // times phi
+  double of_force;   // the factor of c d
+  double of_energy;  // the factor of phi
 };
 Scaled scaled(const BulkPairSystem& s) {
   Scaled r{};
@@ -80,7 +80,7 @@ Scaled scaled(const BulkPairSystem& s) {
   law.half_attraction = s.attraction / 2;
   law.softening_squared = softening * softening;
   law.cut_squared = cut * cut;
-  double phi = 0;  // at the cut-off, and its slope
+  double phi = 0;  // phi and its derivative at the cut-off
   double slope = 0;
   if (s.law == Kind::lennard_jones) {
     // F = -grad phi = 12/sigma^2 s^4 (s^3 - a/2) d.
@@ -153,8 +153,8 @@ class BulkForces::Workspace {
     if (lists()) prepare_lists();
   }
 
-  /// If the potential is requested regularly after a number of forces, at the positions of the last force, it is
-  /// computed together with that force, so that monitoring the energy needs no second pass.
+  /// Computes forces. If the potential is regularly requested at the positions of every n-th force, it is computed
+  /// together with that force, so that monitoring the energy needs no second pass.
   void force(const double* q, double* f) {
     const std::lock_guard turn(busy_);
     ++forces_since_potential_;
@@ -219,7 +219,7 @@ class BulkForces::Workspace {
     knows_ = true;
     return known_;
   }
-  /// The sum of |q|, in independent partial sums.
+  /// Returns the sum of |q|, from independent partial sums.
   double size_of(const double* q) const {
     double sums[8] = {};
     const std::size_t size = system_.space * system_.particles;
@@ -230,7 +230,7 @@ class BulkForces::Workspace {
     for (; i < size; ++i) sums[0] += std::abs(q[i]);
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
   }
-  /// Positions that are not finite belong to no cell; their forces are NaN.
+  /// Sets forces to NaN, for positions that are not finite and belong to no cell.
   double nothing(const double*, double* f) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     std::fill(f, f + system_.space * system_.particles, none);
@@ -274,7 +274,7 @@ class BulkForces::Workspace {
         for (std::size_t i = row_blocks_[b]; i < system_.particles; ++i) total[i] += forces[k * x_room_ + i];
       }
     };
-    // The forces of blocks are added in order, by one thread while they are in its cache.
+    // The forces of blocks are added in their order. One thread does so while they are in its cache.
     const std::size_t blocks = row_blocks_.size() - 1;
     const std::size_t size = space * x_room_;
     if (team_) {
@@ -355,9 +355,9 @@ class BulkForces::Workspace {
   std::vector<double> unused_;
   std::vector<double> known_at_;
   double known_ = 0;
-  bool knows_ = false;  // of the positions known_at_; else these are those of the last force
+  bool knows_ = false;  // whether the potential at known_at_ is known; else known_at_ is the place of the last force
   std::uint64_t forces_since_potential_ = 0;
-  std::uint64_t usual_forces_ = 0;  // before the potential is requested
+  std::uint64_t usual_forces_ = 0;  // number of forces before the potential is requested
   Counts counts_;
 };
 

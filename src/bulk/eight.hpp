@@ -1,5 +1,5 @@
-// Eight numbers in as many registers as the instruction set at hand needs for them, or those of one register, a part of
-// them: the same operations in the same order for each. Included by kernel_body.hpp, within the namespace of an
+// Eight numbers (Eight) in as many registers as the instruction set needs, and the numbers of one register (Part). Each
+// instruction set does the same operations in the same order. Included by kernel_body.hpp, within the namespace of an
 // instruction set.
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
@@ -80,7 +80,7 @@ HAMFLOW_INLINE Group<N> root(const Group<N>& a) {
 #endif
   return r;
 }
-/// max(x, 0); keeps NaN.
+/// Returns max(x, 0). NaN stays NaN.
 template <int N>
 HAMFLOW_INLINE Group<N> not_below_zero(const Group<N>& x) {
   Group<N> r;
@@ -93,13 +93,13 @@ HAMFLOW_INLINE Group<N> not_below_zero(const Group<N>& x) {
 #endif
   return r;
 }
-/// The nearest whole number of |x| < 2^51.
+/// Rounds |x| < 2^51 to the nearest whole number.
 HAMFLOW_INLINE Eight nearest_whole(const Eight& x) {
   const Eight large = all(0x1.8p52);
   return (x + large) - large;
 }
 
-/// A bit for each of the eight where x is not at the limit or above: set of NaN.
+/// Returns eight bits: a bit is set unless x >= limit, so also for NaN.
 HAMFLOW_INLINE unsigned below(const Eight& x, const Eight& limit) {
 #if HAMFLOW_NATIVE_BYTES == 64
   return _mm512_cmp_pd_mask((__m512d)x.v[0], (__m512d)limit.v[0], _CMP_NGE_UQ);
@@ -117,7 +117,7 @@ HAMFLOW_INLINE unsigned below(const Eight& x, const Eight& limit) {
 #endif
 }
 
-/// A mask of the numbers of a part that count.
+/// A mask that selects numbers of a part.
 #if HAMFLOW_NATIVE_BYTES == 64
 using Mask = __mmask8;
 #else
@@ -134,7 +134,7 @@ constexpr Masks every_mask() {
 }
 alignas(HAMFLOW_NATIVE_BYTES) constexpr Masks masks = every_mask();
 #endif
-/// @param bits of the eight @param part which of their parts
+/// @param bits the selection among eight numbers @param part the index of the part
 HAMFLOW_INLINE Mask mask_of(unsigned bits, [[maybe_unused]] int part) {
 #if HAMFLOW_NATIVE_BYTES == 64
   return (Mask)bits;
@@ -144,7 +144,7 @@ HAMFLOW_INLINE Mask mask_of(unsigned bits, [[maybe_unused]] int part) {
   return mask;
 #endif
 }
-/// x where the mask says so, else another number.
+/// Selects x where the mask is set, else `other`.
 HAMFLOW_INLINE Part where(Mask mask, const Part& x, double other) {
 #if HAMFLOW_NATIVE_BYTES == 64
   return {{(Native)_mm512_mask_mov_pd(_mm512_set1_pd(other), mask, (__m512d)x.v[0])}};
@@ -156,7 +156,7 @@ HAMFLOW_INLINE Part where(Mask mask, const Part& x, double other) {
 typedef double Four __attribute__((vector_size(32)));
 typedef double Two __attribute__((vector_size(16)));
 
-/// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
+/// Adds the numbers in the order ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
 HAMFLOW_INLINE double sum_of(const Eight& x) {
 #if HAMFLOW_NATIVE_BYTES == 16
   const Two two = (x.v[0] + x.v[2]) + (x.v[1] + x.v[3]);
@@ -172,7 +172,7 @@ HAMFLOW_INLINE double sum_of(const Eight& x) {
   return two[0] + two[1];
 }
 #if HAMFLOW_NATIVE_BYTES == 32
-/// Which halves of numbers, and which whole ones of 32 bits, go where when those of four bits are moved together.
+/// Tables of permutations that pack the numbers selected by four bits: as halves of doubles, and as 32-bit numbers.
 struct Packing {
   int halves[16][8];
   int wholes[16][4];
@@ -195,7 +195,7 @@ constexpr Packing packing() {
 alignas(32) constexpr Packing packed = packing();
 #endif
 
-/// Those whose bits are set, in their order, to a place with room for eight more.
+/// Appends the numbers whose bits are set, in order. @param to has space for eight numbers
 HAMFLOW_INLINE void append(unsigned bits, const Eight& x, double* to) {
 #if HAMFLOW_NATIVE_BYTES == 64
   _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, (__m512d)x.v[0]));
@@ -234,8 +234,8 @@ HAMFLOW_INLINE void append(unsigned bits, const std::uint32_t* from, std::uint32
 #endif
 }
 
-/// x, y, z, w of eight slots.
-/// @param Two only x and y are wanted: z and w may be left as they are
+/// Loads x, y, z, w of eight slots.
+/// @tparam Two whether only x and y are needed; z and w may then be left unchanged
 template <bool Two>
 HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eight& x, Eight& y, Eight& z, Eight& w) {
   const auto row = [&](int k) { return at + 4 * (std::size_t)slots[k]; };

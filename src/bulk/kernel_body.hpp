@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_lanes = 8;
 
-/// work(Index<0>), work(Index<1>), ...: written out, so that what is indexed stands in registers.
+/// Calls work(Index<0>), work(Index<1>), ... without a loop, so that indexed variables stay in registers.
 template <int n>
 struct Index {
   static constexpr int value = n;
@@ -27,8 +27,8 @@ HAMFLOW_INLINE void each(const Work& work) {
     each<count, at + 1>(work);
   }
 }
-/// work(0), work(1), ... for the parts of eight numbers. Four parts of two numbers fit into no registers anyway: they
-/// take a loop, a quarter of the code.
+/// Calls work(0), work(1), ... for the parts of eight numbers. Four parts of two numbers do not fit into the registers,
+/// so they use a loop, with a quarter of the code.
 template <class Work>
 HAMFLOW_INLINE void each_part(const Work& work) {
   if constexpr (natives > 2) {
@@ -53,8 +53,8 @@ HAMFLOW_INLINE Sums<Space> nothing() {
   return sums;
 }
 
-/// Rows i .. i + Tile - 1 of the same sixteen particles, which share what is read and written of the others, and Width
-/// parts of their sums.
+/// Rows i .. i + Tile - 1, which all visit the same partners, so that data of a partner are loaded and stored once for
+/// all rows; and Width parts of their sums.
 template <class L, int Space, bool Energy, int Tile, int Width>
 struct RowTile {
   const Law& law;
@@ -82,14 +82,14 @@ struct RowTile {
       }
     });
   }
-  /// From j on.
+  /// Returns the differences of coordinate k from the partners j, j + 1, ...
   HAMFLOW_INLINE Part difference(int t, int k, std::size_t j) const { return centre[t][k] - load<Part>(at[k] + j); }
-  /// Pairs of one row, a part from j on and that of the next eight, as far as the division, which takes long.
+  /// Pairs of one row, computed as far as the slow division: a part from j on, and one from j + 8 on.
   struct Begun {
     Part base[2];
     typename L::Inverses inverses;
   };
-  /// @param counts which of them do, where only some do
+  /// @tparam Some whether only some pairs count   @param counts the masks of these pairs
   template <bool Some>
   HAMFLOW_INLINE Begun begin(int t, std::size_t j, const Mask* counts) const {
     Begun r;
@@ -106,7 +106,7 @@ struct RowTile {
     r.inverses.begin(L::numerator(law), r.base[0], r.base[1]);
     return r;
   }
-  /// The rest of them. Differences are made again: that is less than to keep them.
+  /// Completes the pairs. Differences are computed again, which is faster than keeping them.
   template <bool Some>
   HAMFLOW_INLINE void end(Begun begun, int t, int n, std::size_t j, Part (&feel)[2][Space], const Mask* counts) {
     begun.inverses.end(L::numerator(law), begun.base[0], begun.base[1]);
@@ -128,9 +128,9 @@ struct RowTile {
       if constexpr (Energy) energy[t][n] = energy[t][n] + pair.phi;
     });
   }
-  /// All rows, one after the other.
-  /// @param bits of sixteen row by row: which of them count, where only some do
-  /// @param part of the eight sums, the n-th of this tile
+  /// Visits sixteen partners with all rows, one row after the other.
+  /// @param bits for each row, which of the sixteen count; used only with Some
+  /// @param part the index among the parts of the eight sums; it is the n-th of this tile
   template <bool Some>
   HAMFLOW_INLINE void visit(std::size_t j, int n, [[maybe_unused]] const unsigned* bits, [[maybe_unused]] int part) {
     Part feel[2][Space];
@@ -150,15 +150,15 @@ struct RowTile {
       for (int k = 0; Tile > 1 && k < Space; ++k) store(feel[h][k], felt[k] + j + 8 * h);
     }
   }
-  /// The sixteen from j on, of which some count.
+  /// Visits the sixteen partners from j on, of which only some count.
   HAMFLOW_INLINE void visit_some(std::size_t j, const unsigned (&bits)[Tile], int first_part) {
     each<Width>([&](auto part) __attribute__((always_inline)) {
       constexpr int n = decltype(part)::value;
       visit<true>(j + static_cast<std::size_t>(n) * lanes, n, bits, first_part + n);
     });
   }
-  /// All of first .. last - 1. Several rows have work for each other's divisions to hide behind; a single one begins
-  /// the next sixteen before it ends these, as what a processor looks ahead is less than what that takes.
+  /// Visits the partners first .. last - 1. Several rows overlap each other's divisions. A single row begins the next
+  /// sixteen partners before it completes these, because the reorder window of a processor is shorter than this work.
   HAMFLOW_INLINE void visit_all(std::size_t first, std::size_t last) {
     if constexpr (Tile > 1) {
       for (std::size_t j = first; j < last; j += 16) visit<false>(j, 0, nullptr, 0);
@@ -181,16 +181,16 @@ struct RowTile {
   }
 };
 
-/// Rows at a time where there are registers for them.
+/// The number of rows that are visited together, limited by the number of registers.
 template <int Space>
 constexpr int rows_of_tile = natives > 1  ? 1
                              : Space == 2 ? 4
                                           : 2;
-/// Parts at a time: four of two numbers fit into no registers.
+/// The number of parts that are summed together. Four parts of two numbers do not fit into the registers.
 constexpr int parts_of_tile = natives > 2 ? 1 : natives;
 
-/// All pairs i < j of the rows i, each once: j is added to the (j mod 8)-th partial sum of the row, and what it feels
-/// to the forces of these rows (Scratch), which are summed over rows later.
+/// Sums all pairs i < j of the rows i, each once. Partner j is added to the (j mod 8)-th partial sum of the row. The
+/// opposite force is added to the forces of this block (Scratch), which are summed over blocks later.
 template <class L, int Space, bool Energy>
 std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, const Candidates&,
                       const Scratch& scratch) {
@@ -203,7 +203,7 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
   while (i < last) {
     const std::size_t own = i / 16 * 16;
     const std::size_t end = own + 16 < last ? own + 16 : last;
-    alignas(64) double own_force[Space][16] = {};  // added when no other row of the sixteen reads it any more
+    alignas(64) double own_force[Space][16] = {};  // added at the end, when no row of the sixteen reads forces any more
     const auto add_rows = [&](auto tile) __attribute__((always_inline)) {
       constexpr int Tile = decltype(tile)::value;
       constexpr int Width = parts_of_tile;
@@ -247,8 +247,8 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
   return 0;
 }
 
-/// Packs the differences of the neighbours in range of one row, and their w. It is a function called once per row,
-/// because within the kernels it would be compiled a hundred times.
+/// Packs the differences and w of the neighbours in range of one row. It is not inlined, because it would be compiled a
+/// hundred times within the kernels.
 template <bool Weighs, int Space, bool Images>
 [[gnu::noinline]] std::size_t pack(const Rows& rows, std::size_t i, const std::uint32_t* slots, std::size_t count,
                                    double* to, std::size_t stride) {
@@ -278,15 +278,16 @@ template <bool Weighs, int Space, bool Images>
   return found;
 }
 
-/// A part of eight pairs: u and the differences.
+/// u and the differences of a part of eight pairs.
 template <int Space>
 struct Distance {
   Part u;
   Part d[Space];
 };
 
-/// Sixteen pairs of one row, or some of them. u is made again, with the bits that it had: that is less than to move it.
-/// @param Halves 1: all that count are among the first eight. What is left out would add 0 and divide with u = 1.
+/// Adds sixteen pairs of one row, or some of them. u is computed again with the same bits, which is faster than storing
+/// it.
+/// @tparam Halves 1 if all pairs that count are among the first eight; the others would add 0 and divide by u = 1
 template <class L, class C, int Space, bool Energy, bool Some, int Halves>
 HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t stride, unsigned bits,
                                 Sums<Space>& sums) {
@@ -301,7 +302,7 @@ HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t 
       const double* const here = from + 8 * h + n * lanes;
       for (int k = 0; k < Space; ++k) {
         r[h].d[k] = load<Part>(here + static_cast<std::size_t>(k) * stride);
-        if constexpr (Some) r[h].d[k] = where(counts[h], r[h].d[k], 0);  // what was there before may be no number
+        if constexpr (Some) r[h].d[k] = where(counts[h], r[h].d[k], 0);  // unused memory may contain NaN
         r[h].u = k == 0 ? r[h].d[k] * r[h].d[k] : r[h].d[k] * r[h].d[k] + r[h].u;
       }
       if constexpr (Some) r[h].u = where(counts[h], r[h].u, 1);
@@ -322,8 +323,8 @@ HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t 
   });
 }
 
-/// Neighbours in range by lists: the k-th is added to the (k mod 8)-th partial sum. While one row is summed the next
-/// one is packed, so that what is read was written some time ago.
+/// Sums neighbours in range with lists. The k-th neighbour is added to the (k mod 8)-th partial sum. While one row is
+/// summed, the next one is packed, so that no load waits for a recent store.
 template <class L, class C, int Space, bool Energy>
 std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, const Candidates& candidates,
                          const Scratch& scratch) {

@@ -6,9 +6,9 @@ struct Pair {
   Part phi;
 };
 
-/// numerator/u of two vectors. One division serves both, 1/a = b/(a b). Squares of lengths between
-/// 1e-150 and 1e150 have such a product; others give no number, which is found. What is begun early is there when it is
-/// wanted.
+/// numerator/u for two vectors with a single division, 1/a = b/(a b). The product is finite for squares of lengths
+/// between 1e-150 and 1e150. Others give NaN, which is detected. The division begins early, so that its result is
+/// available when it is needed.
 struct Quotients {
   Part first;
   Part second;
@@ -19,7 +19,7 @@ struct Quotients {
   }
 };
 
-// A pair law is a function of what `Inverses` makes of base(u).
+// A pair law is a function of the result of `Inverses` for base(u).
 
 struct LennardJones {
   using Inverses = Quotients;  // s = sigma^2/u
@@ -44,7 +44,7 @@ struct Newton {
   }
 };
 
-// Cut-offs: what becomes of a pair at the square u of its distance.
+// Cut-offs change a pair as a function of u, the square of its distance.
 
 struct Uncut {
   HAMFLOW_INLINE static Pair of(const Law&, const Part&, const Part&, const Pair& pair, bool) { return pair; }

@@ -7,8 +7,8 @@
 namespace hamflow {
 
 void NearPairs::find(ThreadTeam* team) {
-  // Lists allow 1e-9 of their reach for rounding, which is what positions lose when they become double and are wrapped:
-  // a few times 2^-53 of their size. Farther out, and where a position is no number, no pair is left out.
+  // Converting positions to double and wrapping them rounds by a few times 2^-53 of their size. Lists have a margin of
+  // 1e-9 of their range for this. If a position is farther out or NaN, all pairs are visited.
   const double far = 1e5 * (reach_.radius + reach_.skin);
   all_ = false;
   for (const double x : positions_) all_ = all_ || !(std::abs(x) <= far);
@@ -26,7 +26,7 @@ void NearPairs::find(ThreadTeam* team) {
   ++lists_;
 }
 
-/// Of each row the second half: lists have every pair twice.
+/// Takes the second half of each row, because lists contain every pair twice.
 void NearPairs::take_rows() {
   const auto blocks = neighbours_->blocks();
   std::size_t most = 0;

@@ -9,12 +9,12 @@
 namespace hamflow::bulk {
 
 namespace {
-constexpr std::size_t rows_each = 64;  // of a block, at least
-/// Margin for rounding at limits.
+constexpr std::size_t rows_each = 64;  // minimum number of rows of a block
+/// A relative margin for rounding at limits.
 constexpr double margin = 1e-9;
 constexpr std::size_t worth_sharing = 4096;
 
-/// The nearest whole number of |x| < 2^51, as the kernels round.
+/// Rounds |x| < 2^51 to the nearest whole number, as the kernels do.
 double nearest(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
 
 /// Reserves extra space, because later lists may be longer when particles move into the cells of a block. Unused memory
@@ -23,7 +23,7 @@ void make_room(std::size_t size, std::vector<std::uint32_t>& list) {
   if (list.capacity() < size + size / 2) list.reserve(2 * size + 64);
 }
 
-/// work(worker, block) for each block, by all threads where there are more.
+/// Calls work(worker, block) for each block, on all threads of the team.
 template <class Work>
 void share(ThreadTeam* team, std::size_t blocks, const Work& work) {
   if (team == nullptr || blocks < 2) {
@@ -59,12 +59,12 @@ void Neighbours::prepare(const Box& box, std::size_t particles, std::size_t work
 
 inline double Neighbours::wrapped(double x, std::size_t k) const {
   const double edge = box_.edges[k];
-  // The same without a division, where most particles are: the quotient rounds to 0.
+  // For most particles the quotient rounds to 0. This test gives the same result without a division.
   if (std::abs(x) < 0.499 * edge || edge == 0) return x;
   return x - nearest(x / edge) * edge;
 }
 
-/// Chooses cells that are not smaller than the range of the lists, and not many more than particles.
+/// Chooses cells that are at least as large as the range of the lists, and not many more than there are particles.
 void Neighbours::lay_cells(const double* q) {
   const std::size_t space = box_.space;
   double most = 1;
@@ -96,7 +96,7 @@ void Neighbours::lay_cells(const double* q) {
   for (std::size_t k = space; k < 3; ++k) cells_[k] = 1;
 }
 
-/// Sorts by counting, so that numbers ascend within a cell.
+/// Sorts particles into cells by counting, so that numbers ascend within a cell.
 void Neighbours::sort_into_cells(const double* q) {
   const std::size_t space = box_.space;
   const std::size_t cells = cells_[0] * cells_[1] * cells_[2];
@@ -106,7 +106,7 @@ void Neighbours::sort_into_cells(const double* q) {
     for (std::size_t k = space; k-- > 0;) {
       const double place = (wrapped(q[i * space + k], k) - corner_[k]) / cell_edge_[k];
       const double last = static_cast<double>(cells_[k] - 1);
-      // If all particles have the same coordinate, the quotient is NaN.
+      // The quotient is NaN if all particles have the same coordinate.
       cell = cell * cells_[k] + (place > 0 ? static_cast<std::size_t>(std::min(place, last)) : 0);
     }
     cell_of_[i] = static_cast<std::uint32_t>(cell);
@@ -122,7 +122,7 @@ void Neighbours::sort_into_cells(const double* q) {
   cell_begins_[0] = 0;
 }
 
-/// Chooses the number of cells per block such that a block has several rows on average. Blocks keep their memory.
+/// Chooses the number of cells per block so that a block has enough rows on average. Blocks keep their memory.
 void Neighbours::divide_rows() {
   const std::size_t cells = cell_begins_.size() - 1;
   const std::size_t each = std::min(cells, rows_each * cells / particles_ + 1);
@@ -137,7 +137,7 @@ void Neighbours::divide_rows() {
   }
 }
 
-/// The cell itself too, each of them once.
+/// Lists the cell and its neighbours, each once. @return their number
 std::size_t Neighbours::cells_beside(std::size_t cell, std::size_t* beside) const {
   const std::size_t at[3] = {cell % cells_[0], cell / cells_[0] % cells_[1], cell / cells_[0] / cells_[1]};
   std::size_t near[3][3];
@@ -164,8 +164,8 @@ std::size_t Neighbours::cells_beside(std::size_t cell, std::size_t* beside) cons
   return found;
 }
 
-/// The particles in and around a cell in the order of their numbers, by marks that are read in that order; where cells
-/// are small beside the box, those of their images that are nearest to the cell.
+/// Gathers the particles in and around a cell in the order of their numbers: it marks them in a bit set and reads the
+/// set in order. If cells are small compared with the box, it takes the images that are nearest to the cell.
 void Neighbours::gather(std::size_t cell, ThreadScratch& scratch) const {
   auto& [marks, words] = scratch.marks;
   std::size_t beside[27];
@@ -176,7 +176,7 @@ void Neighbours::gather(std::size_t cell, ThreadScratch& scratch) const {
     const std::size_t begin = cell_begins_[beside[c]];
     const std::size_t end = cell_begins_[beside[c] + 1];
     if (begin == end) continue;
-    // Numbers ascend, so that most of a cell are of one word of words: its marks are put there together.
+    // Numbers ascend within a cell, so most marks belong to one word of the upper level, and are written together.
     std::size_t word = number_[begin] / 4096;
     std::uint64_t in_word = 0;
     lowest = std::min(lowest, word);
@@ -231,8 +231,8 @@ void Neighbours::gather(std::size_t cell, ThreadScratch& scratch) const {
   }
 }
 
-/// The rows of a block follow each other like the slots: in a cell both are in the order of numbers. They are written
-/// to the scratch memory of the thread first, so that a block is allocated once with the right size.
+/// Finds the rows of a block, in the order of the slots. They are written to the scratch memory of the thread first, so
+/// that a block is allocated only once, with the right size.
 void Neighbours::find_rows(Block& block, ThreadScratch& scratch, const FindNear* near) const {
   std::vector<std::uint32_t>& rows = scratch.rows;
   std::size_t used = 0;
@@ -300,7 +300,8 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
   sort_into_cells(q);
   divide_rows();
   clear_scratch();
-  // A particle is deep in the box when no image of another one can come within range of it while the lists last.
+  // A particle is deep in the box if no periodic image of another one can come into its range while the lists are
+  // valid.
   double deep[3] = {};
   bool any_deep = true;
   by_shift_ = true;

@@ -1,5 +1,5 @@
-// Neighbour lists: for each particle the particles within the cut-off plus a skin, in the order of their numbers. They
-// are valid until two particles together have moved by the skin.
+// Neighbour lists: for each particle, the particles within the cut-off plus a skin, in the order of their numbers.
+// Lists are valid until the two largest displacements add up to the skin.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace hamflow::bulk {
 
-/// Memory for registers of any width; resizing sets all to 0.
+/// Memory that is aligned for registers of any width. Resizing sets all numbers to 0.
 class Numbers {
  public:
   void resize(std::size_t size) {
@@ -36,12 +36,12 @@ class Neighbours {
   struct Box {
     std::size_t space = 2;
     std::array<double, 3> edges{};  // 0: not periodic
-    double radius = 0;              // of the cut-off
+    double radius = 0;              // the cut-off
     double skin = 0;
   };
-  /// Rows that one worker sums at a time.
+  /// The rows that one worker sums at a time.
   struct Block {
-    std::size_t first = 0;  // slots
+    std::size_t first = 0;  // the first slot
     std::size_t last = 0;
     std::size_t first_cell = 0;
     std::size_t last_cell = 0;
@@ -51,17 +51,17 @@ class Neighbours {
     Candidates candidates() const { return {slots.data(), begins.data(), counts.data()}; }
   };
 
-  /// @param workers how many threads can make lists at a time
+  /// @param workers the number of threads that make lists at the same time
   void prepare(const Box& box, std::size_t particles, std::size_t workers);
-  /// Copies positions to their slots. @return whether the lists still serve them; never before the first ones are made
+  /// Copies positions to their slots. @return whether the lists are still valid; false before the first ones are made
   bool place(const double* q, ThreadTeam* team);
-  /// Makes new lists and places the particles. @param near without and with images
+  /// Makes new lists and places the particles. @param near functions without and with periodic images
   void make(const double* q, const FindNear* near, ThreadTeam* team);
 
   std::span<const Block> blocks() const { return {blocks_.data(), used_blocks_}; }
   std::size_t longest_row() const { return longest_; }
   void show(Rows& rows) const;
-  /// The fourth number of each slot, after lists are made. @param strengths by particle; empty: 1
+  /// Sets the fourth number of each slot, after lists are made. @param strengths by particle; empty: all are 1
   void set_strengths(const std::vector<double>& strengths);
 
  private:
@@ -70,12 +70,12 @@ class Neighbours {
     // The particles in and around a cell, in the order of their numbers.
     Numbers x[3];
     std::vector<std::uint32_t> slots;
-    std::vector<std::uint32_t> own;  // places of those in the cell
+    std::vector<std::uint32_t> own;  // indices of the particles in the cell itself
     std::size_t count = 0;
-    std::vector<std::uint32_t> rows;  // of a block
-    // A bit for each particle, and for each word of such bits.
+    std::vector<std::uint32_t> rows;  // the rows of a block
+    // One bit for each particle, and one bit for each word of these bits.
     std::array<std::vector<std::uint64_t>, 2> marks;
-    double moved[2] = {0, 0};  // the largest two squares of displacements
+    double moved[2] = {0, 0};  // the two largest squared displacements
   };
   double wrapped(double x, std::size_t k) const;
   void lay_cells(const double* q);
@@ -91,7 +91,7 @@ class Neighbours {
 
   Box box_;
   std::size_t particles_ = 0;
-  double reach_ = 0;  // of the lists
+  double reach_ = 0;  // the range of the lists
   std::array<std::size_t, 3> cells_{1, 1, 1};
   std::array<double, 3> corner_{};
   std::array<double, 3> cell_edge_{};
@@ -101,13 +101,13 @@ class Neighbours {
   std::vector<std::uint32_t> slot_of_;  // by particle
   std::vector<unsigned char> plain_;    // by slot
   Numbers at_;                          // by slot
-  Numbers x_[3];                        // by slot, when the lists were made
-  Numbers made_at_;                     // by slot, unwrapped
+  Numbers x_[3];                        // positions by slot, when the lists were made
+  Numbers made_at_;                     // the same, unwrapped
   std::vector<Block> blocks_;
   std::size_t used_blocks_ = 0;
   std::vector<ThreadScratch> scratch_;
   std::size_t longest_ = 0;
-  bool by_shift_ = true;  // the images nearest to a cell are those that count
+  bool by_shift_ = true;  // whether only the images nearest to a cell can be in range
   bool made_ = false;
 };
 

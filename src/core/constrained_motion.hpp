@@ -57,7 +57,7 @@ class ConstrainedField {
   S energy(const Vector<S, N>& q, const Vector<S, N>& p) const {
     return hamflow::energy(problem_, q, p);
   }
-  /// -p' and q'. A problem with constraints behind virtual calls computes this field itself.
+  /// Computes -p' and q'. A problem with constraints behind virtual calls computes this field itself.
   template <class S, std::size_t N>
   void gradient(const Vector<S, N>& q, const Vector<S, N>& p, Vector<S, N>& dq, Vector<S, N>& dp) const {
     hamflow::gradient(problem_, q, p, dq, dp);

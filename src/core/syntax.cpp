@@ -268,7 +268,7 @@ class SyntaxReader {
     if (!take("**") && !take("^")) return base;
     return binary(Operation::power, power, base, unary());  // right-associative; 2^-3 is allowed
   }
-  /// The closing bracket that belongs to an opening one. @return the place behind it
+  /// Finds the closing bracket for an opening one. @return the place after it
   std::size_t closed(std::size_t opened, char bracket) {
     skip_space();
     if (here() == bracket) return ++at_;
@@ -304,7 +304,7 @@ class SyntaxReader {
     at_ = begin + name.size();
     return name_parts(begin, begin + name.size());
   }
-  /// Reads the indices behind a word, and the rest of the name behind them. @param end end of the word
+  /// Reads the indices after a word, and the rest of the name after them. @param end the end of the word
   int name_parts(std::size_t begin, std::size_t end) {
     const Level level(*this);
     SyntaxPart part{.kind = SyntaxPart::Kind::name,

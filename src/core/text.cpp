@@ -36,7 +36,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The candidate that `name` is another name of (other_names.hpp); empty if there is none.
+/// Returns the candidate for which `name` is another name (other_names.hpp); empty if there is none.
 std::string candidate_by_other_name(const std::string& name, std::span<const std::string> candidates) {
   std::string said = lower_case(name);
   std::replace(said.begin(), said.end(), '_', '-');

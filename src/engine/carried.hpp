@@ -1,6 +1,5 @@
 // The data that a step passes to the next one, found by visiting the archive() of a state, a probe and a method. The
-// fields have the same order in the recorded step, whose numbers are traces, and in the simulation, whose numbers are
-// doubles: the k-th number corresponds to the k-th.
+// recorded step has traces and the simulation has doubles, but both have the same fields in the same order.
 #pragma once
 
 #include <bit>
@@ -50,7 +49,7 @@ class ArchiveWalk {
 };
 }  // namespace detail
 
-/// leaf(x) for every number of the objects, in the order of their archives.
+/// Calls leaf(x) for every number of the objects, in the order of their archives.
 template <class Leaf, class... Objects>
 void for_each_carried(Leaf&& leaf, Objects&... objects) {
   detail::ArchiveWalk<std::remove_reference_t<Leaf>> walk(leaf);
@@ -68,7 +67,7 @@ struct CarriedField {
   std::uint64_t bits = 0;
 };
 
-/// The bits of a number that is not a trace.
+/// Returns the bits of a number that is not a trace.
 template <class T>
 std::uint64_t field_bits(const T& x) {
   if constexpr (std::is_same_v<T, double>) {
@@ -107,7 +106,7 @@ bool gather(std::span<const CarriedField> fields, std::span<double> values, Obje
   return fits && at == fields.size();
 }
 
-/// Writes them back after the given number of steps.
+/// Writes the carried numbers back after the given number of steps.
 template <class... Objects>
 void scatter(std::span<const CarriedField> fields, std::span<const double> values, std::int64_t steps,
              Objects&... objects) {

@@ -27,7 +27,7 @@ inline const GaussRule<Trace<double>>& gauss_rule<Trace<double>>(int s) {
   static thread_local std::map<int, GaussRule<Trace<double>>> rules;
   return rules.try_emplace(s, detail::rounded<Trace<double>>(gauss_rule<double>(s))).first->second;
 }
-/// Valid for products whose halves do not overflow, which every run of the recording checks.
+/// Valid unless the halves of a product overflow, which every run of the recording checks.
 inline Trace<double> product_error(const Trace<double>& a, const Trace<double>& b, const Trace<double>& product) {
   if (product.is_constant()) return product_error(a.value, b.value, product.value);
   static constexpr double splitter = (1 << 27) + 1;  // as in exact_product.hpp
@@ -41,10 +41,10 @@ inline Trace<double> product_error(const Trace<double>& a, const Trace<double>& 
   return lost;
 }
 
-/// Where the numbers of a frame begin. @param n coordinates   @param m variables of Newton, n or 2 n
+/// The places of the numbers in a frame. @param n coordinates   @param m variables of Newton's method, n or 2 n
 struct ElementFrame {
   static constexpr std::size_t most_coordinates = 3;
-  static constexpr std::size_t most = 120;  // numbers
+  static constexpr std::size_t most = 120;  // maximum number of numbers
   std::size_t n = 0;
   std::size_t m = 0;
   static constexpr std::size_t h = 0;
@@ -60,14 +60,15 @@ struct ElementFrame {
   std::size_t point() const { return number() + 3; }
 };
 
-/// One of the programs, with its count of evaluations. The first times it is computed instead of recorded, with the
-/// same bits, because a short run, such as one of many in a sweep, ends before recording pays off.
+/// One of the programs, with its number of evaluations. It is recorded only after some calls. Before that it is
+/// computed directly, with the same bits, because a short run, such as a member of a sweep, ends before recording pays
+/// off.
 class ElementProgram {
  public:
   using Compute = std::function<void(std::span<double>, Effort&)>;
   using Record = std::function<Program(Effort&)>;
   ElementProgram(Compute compute, Record record) : compute_(std::move(compute)), record_(std::move(record)) {}
-  /// @return true if all numbers are those of the element; otherwise none is valid
+  /// @return true if all numbers are valid, else none is
   bool run(std::span<double> frame, Effort& effort) const {
     const Made* const made = made_.load(std::memory_order_acquire);
     if (made == nullptr && runs_.fetch_add(1, std::memory_order_relaxed) < worth_it) {
@@ -108,12 +109,12 @@ class ElementProgram {
 /// The programs of one quadrature.
 struct ElementPrograms {
   ElementProgram predicted;  // x from (h, q0, p0)
-  ElementProgram started;    // x from a memory, which is in x
-  ElementProgram evaluated;  // residual, lost, tangent, point and one number, the size of the free_displacement, at x
+  ElementProgram started;    // x from a remembered solution in x
+  ElementProgram evaluated;  // residual, lost, tangent, point, and the size of the free_displacement, at x
   ElementProgram taken;      // x and increments at x
-  ElementProgram corrected;  // the same at x + correction
+  ElementProgram corrected;  // x and increments at x + correction
   ElementProgram norm;       // a number, after `evaluated`
-  ElementProgram work;       // of the increments: energy gained, size of its terms, rounding
+  ElementProgram work;       // for the increments: energy gained, size of its terms, rounding
 };
 
 namespace detail {
@@ -129,7 +130,7 @@ class ElementOnFrame {
   using Frame = std::vector<Number>;
 
  public:
-  /// With what the programs need of it.
+  /// Makes the functions that the programs need accessible.
   class Element : public Plain {
    public:
     using Plain::Plain;

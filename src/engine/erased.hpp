@@ -94,7 +94,7 @@ struct ErasedEntry {
       simulate_member{};
 };
 
-/// action.template operator()<R>() with the number type of an arithmetic beyond double.
+/// Calls action.template operator()<R>() with the number type R of an arithmetic beyond double.
 template <class Action>
 auto in_arithmetic(const std::string& arithmetic, const Action& action) {
   if constexpr (has_quad_and_mp) {

@@ -59,7 +59,7 @@ class InParts : public Base {
     if (!remembers_positions_alone<typename Base::Stepper>() || has_clock(Base::problem())) InParts::forget();
   }
   void forget_mirrored(std::size_t i) override {
-    // The last bit of a force is that of its mirror image where the position is one number.
+    // If a position is a single number, the mirror image of a force has the same bits except for the sign.
     if constexpr (std::is_same_v<decltype(z_.arithmetic), Plain<Real>> && requires { method_.mirror_kept(i); }) {
       method_.mirror_kept(i);
     } else {
@@ -83,7 +83,7 @@ class InParts : public Base {
     probe_ = other.probe_;
     clock_ = other.clock_;
   }
-  /// A copy has none.
+  /// Saved states. A copy of the simulation has none.
   struct Marks {
     std::array<std::unique_ptr<InParts>, 2> kept;
     Marks() = default;

@@ -98,7 +98,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   }
 
  private:
-  /// Fills in the numbers of a frame. @return whether there is a first guess from the last step, used or not
+  /// Fills in the numbers of a frame. @return whether the last step left an initial guess, used or not
   bool fill(std::span<double> values) const {
     values[IterationFrame::h] = clock_.step_length();
     values[IterationFrame::position] = static_cast<double>(clock_.position());

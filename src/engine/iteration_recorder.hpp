@@ -1,4 +1,4 @@
-// Averages as programs, for lanes.
+// Records the steps of methods with averages as programs, for lanes.
 #pragma once
 
 #include "erased.hpp"

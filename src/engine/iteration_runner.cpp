@@ -44,7 +44,7 @@ bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& gu
   return true;
 }
 
-/// Newton<E>::iterate() without a tolerance, from the first guess or, after guess failures, from the last state.
+/// Newton<E>::iterate() without a tolerance, from the initial guess or, after guess failures, from the last state.
 /// @return the number of corrections; 0 if it did not converge or needs a further check
 int IterationRunner::solved(std::span<double> frame, int& guess_failures) {
   const IterationFrame& at = recorded_.frame;

@@ -23,9 +23,9 @@ class IterationRunner {
   /// @param recorded its `correct` is not used if there are stages
   IterationRunner(RecordedIteration recorded, const NewtonOptions& options, std::optional<StagesInLanes> stages);
 
-  /// Takes steps from a frame with a first guess, until a step must be left to the simulation.
+  /// Takes steps from a frame with an initial guess, until a step must be left to the simulation.
   /// @return the number of steps taken; the frame is the one after them @param effort to which their work is added
-  /// @param guess_failures of Newton; must be 0 unless counts_guess_failures()
+  /// @param guess_failures the count of Newton's method; must be 0 unless counts_guess_failures()
   std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& guess_failures);
   /// Whether it can take steps that begin from the last state; this is so for stages, whose result needs no check.
   bool counts_guess_failures() const { return stages_.has_value(); }
@@ -48,7 +48,7 @@ class IterationRunner {
   std::vector<double> q_;
   std::vector<double> p_;
   std::vector<double> start_;
-  std::vector<double> next_;  // for stages: the first guess of the next step
+  std::vector<double> next_;  // for stages: the initial guess of the next step
 };
 
 }  // namespace hamflow

@@ -17,7 +17,7 @@ struct RecordedPart {
   Program program;
   std::size_t state = 0;                 // number of values in the archive of the state
   std::size_t size = 0;                  // of q
-  Effort effort;                         // of one part
+  Effort effort;                         // the work of one part
   std::vector<std::int64_t> counters{};  // increments by one part of the counters in the method's archive, in order
 
   std::size_t length() const { return state; }
@@ -38,13 +38,13 @@ class PartsInNumbers {
   /// Moves to the state that look has just evaluated.
   void go();
 
-  /// As numbers, of which compensated ones have two: the first is their value.
+  /// Return a coordinate and a momentum. A compensated number is stored as two, and the first is its value.
   double position(std::size_t i) const { return state_[each_ * i]; }
   double momentum(std::size_t i) const { return state_[each_ * (part().size + i)]; }
   void negate_momentum(std::size_t i);
 
-  /// Since begin().
-  Effort effort() const;                            // of all calls of look
+  /// The work since begin().
+  Effort effort() const;                            // the work of all calls of look
   std::int64_t parts() const { return parts_; }     // number of parts taken
   double energy() const { return values_.back(); }  // after the last look
 
@@ -54,9 +54,9 @@ class PartsInNumbers {
     std::unique_ptr<const StepLoop> loop;
   };
   std::shared_ptr<const Compiled> compiled_;  // copies share it
-  std::size_t each_;                          // numbers of a coordinate
+  std::size_t each_;                          // stored numbers per coordinate
   std::vector<double> state_;
-  std::vector<double> values_;  // of the program, behind the last look
+  std::vector<double> values_;  // the values of the program after the last look
   std::int64_t looks_ = 0;
   std::int64_t parts_ = 0;
 };

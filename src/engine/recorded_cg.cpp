@@ -104,8 +104,8 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
     if (options.tolerance || options.diagnostics || options.iteration != Iteration::newton) return false;
     return loop_ || (asked_ += steps) >= worth_recording;
   }
-  /// Fills in the numbers of the next step, without its first guess. @return whether that is extrapolated from the last
-  /// three
+  /// Fills in the numbers of the next step, without its initial guess. @return whether the guess is extrapolated from
+  /// the last three solutions
   bool fill() {
     if (!method_.newton().uses_memory() || !method_.newton().memory().is_full()) return false;
     numbers_.assign(frame_.size(), 0.0);
@@ -151,7 +151,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   SegmentFrame frame_;
   SegmentMaker maker_;
   std::optional<SegmentLoop> loop_;
-  int points_ = 0;  // of the loop
+  int points_ = 0;  // the number of points of the loop
   std::vector<double> numbers_;
   std::int64_t asked_ = 0;
 };

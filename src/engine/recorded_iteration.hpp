@@ -40,7 +40,7 @@ inline const AverageTable<Trace<double>>& stage_table<Trace<double>>(int stages)
   return detail::traced_table(stages, stages, [&] { return stage_table<double>(stages); });
 }
 
-/// Where the numbers of a frame begin.
+/// The places of the numbers in a frame.
 struct IterationFrame {
   std::size_t n = 0;         // coordinates
   std::size_t m = 0;         // unknowns that are iterated
@@ -53,7 +53,7 @@ struct IterationFrame {
   static constexpr std::size_t state(std::size_t k) { return carried + 2 * k; }
   std::size_t memory() const { return 2 + recorded; }    // unknowns of the last step
   std::size_t x() const { return memory() + m; }         // the present unknowns
-  std::size_t correction() const { return x() + m; }     // the last one
+  std::size_t correction() const { return x() + m; }     // the last correction
   std::size_t unit() const { return correction() + m; }  // rounding of its entries
   std::size_t end() const { return unit() + m; }         // the unknowns at the end of the step
   std::size_t increment() const { return end() + m; }    // of q and p
@@ -83,12 +83,12 @@ struct IterationTime {
   double direction = 1;  // or -1, with h < 0
 };
 
-/// Records the programs at a frame whose unknowns are a first guess; nullopt if they branch or are too long.
-/// @param points the setting: Gauss points
+/// Records the programs at a frame whose unknowns are an initial guess. Returns nullopt if they branch or are too long.
+/// @param points the number of quadrature points
 using IterationRecorder = std::function<std::optional<RecordedIteration>(
     const IterationFrame&, std::vector<double> values, int points, const IterationTime& time, IterationParts parts)>;
 
-/// What a simulation offers to lanes (src/engine/iterated_simulation.hpp).
+/// The interface of a simulation to lanes (src/engine/iterated_simulation.hpp).
 class IteratedMember {
  public:
   virtual ~IteratedMember() = default;
@@ -96,15 +96,15 @@ class IteratedMember {
   virtual NewtonOptions newton() const = 0;
   /// Whether the points are tested at the end of every step.
   virtual bool automatic() const = 0;
-  /// Which equations the next step begins with.
+  /// The number of quadrature points with which the next step begins.
   virtual int points() const = 0;
   virtual bool can_be_recorded() const = 0;
   /// @pre can_be_recorded()
   virtual std::optional<RecordedIteration> recorded_iteration() const = 0;
-  /// Fills in the numbers of a frame. @return whether the next step begins with a first guess from the last one, which
-  /// is then x
+  /// Fills in the numbers of a frame. @return whether the last step left an initial guess for the next one, which is
+  /// then x
   virtual bool read(std::span<double> frame) const = 0;
-  /// Sets the simulation to the state after the given number of further steps. @param effort of these steps
+  /// Sets the simulation to the state after the given number of further steps. @param effort the work of these steps
   virtual void take(std::span<const double> frame, std::int64_t steps, const Effort& effort) = 0;
   /// The time after the given number of further steps, in double.
   virtual double time_after(std::int64_t steps) const = 0;
@@ -112,7 +112,7 @@ class IteratedMember {
 
 namespace detail {
 
-/// The numbers of a frame as inputs of a recording, with the state and the probe that they are.
+/// The numbers of a frame as inputs of a recording, and the state and the probe made of them.
 template <class P, class TA>
 struct TracedFrame {
   using Number = Trace<double>;
@@ -152,7 +152,7 @@ struct TracedFrame {
 
 namespace detail {
 
-/// One correction. @param values of the frame, afterwards those behind it
+/// Records one correction. @param values the numbers of the frame; afterwards those after the correction
 template <class E, class TA>
 void record_correction(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
                        std::vector<double>& values, const IterationTime& time, RecordedIteration& made) {
@@ -185,8 +185,9 @@ void record_correction(const typename E::Setup& setup, const typename E::Problem
   made.correct.program = program_of(f.recorder.finish(f.numbers));
 }
 
-/// A change of H along a step that the simulation itself would not look at twice (overlooks_a_change, energy_gain.hpp):
-/// half of what it allows at least, with a sixteenth of the terms of the virial, from the mean force and velocity.
+/// A change of H along a step that the simulation would certainly accept without a further check (overlooks_a_change,
+/// energy_gain.hpp): half of the smallest bound that it uses, with a sixteenth of the virial terms, from the mean force
+/// and velocity.
 template <class S>
 S explained_change(const S& energy, const S& h, const Vector<S, dynamic>& q, const Vector<S, dynamic>& p,
                    const Vector<S, dynamic>& dq, const Vector<S, dynamic>& dp) {
@@ -195,8 +196,8 @@ S explained_change(const S& energy, const S& h, const Vector<S, dynamic>& q, con
   return S(128 * std::numeric_limits<double>::epsilon()) * S(abs(energy) + terms / S(16 * abs(h)));
 }
 
-/// The data for the next step. @param continues includes the first guess of the next step @return false if a number is
-/// not finite
+/// The data for the next step. @param continues includes the initial guess of the next step @return false if a number
+/// is not finite
 template <class E, class TA>
 bool record_finish(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
                    const std::vector<double>& values, const IterationTime& time, bool continues,
@@ -248,9 +249,8 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
 }  // namespace detail
 
 /// Records a step of averages from a frame.
-/// @tparam E the equations on traces   @tparam TA the arithmetic, traced   @param values of the frame
-/// @return nothing where a step leaves the finite numbers, branches on the state or is longer than
-/// most_recorded_operations
+/// @tparam E the equations on traces   @tparam TA the traced arithmetic   @param values the numbers of the frame
+/// @return nullopt if the step is not finite, branches on the state or is longer than most_recorded_operations
 template <class E, class TA>
 std::optional<RecordedIteration> record_iteration(const typename E::Problem& problem, const AverageOptions& options,
                                                   const IterationFrame& frame, std::vector<double> values, int points,

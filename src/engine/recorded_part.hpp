@@ -19,7 +19,7 @@ namespace hamflow {
 using PartRecorder = std::function<std::optional<RecordedPart>(const Vector<double, dynamic>& q,
                                                                const Vector<double, dynamic>& p, double h)>;
 
-/// leaf(x) for every counter in the archives of objects: whole numbers that steps only increment.
+/// Calls leaf(x) for every counter in the archives of objects: whole numbers that steps only increment.
 template <class Leaf, class... Objects>
 void for_each_counter(Leaf&& leaf, Objects&... objects) {
   for_each_carried(
@@ -29,7 +29,9 @@ void for_each_counter(Leaf&& leaf, Objects&... objects) {
       objects...);
 }
 
-/// @tparam A of traces, of any length (detail/methods/step_density.hpp)   @param method bound to `problem`
+/// Records a part.
+/// @tparam A an arithmetic of traces with any step size (detail/methods/step_density.hpp)
+/// @param method bound to `problem`
 template <class A, class P, class M>
 std::optional<RecordedPart> record_part(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, std::size_t most_operations) {

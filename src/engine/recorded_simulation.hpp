@@ -104,7 +104,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       const std::int64_t some = loop->steps->take(values_, most);
       if (some < 0 || !are_finite()) {
         values_.swap(kept_values_);
-        block = most / 2;  // to the step that fails
+        block = most / 2;  // bisects towards the step that fails
         has_failed = true;
         continue;
       }
@@ -221,7 +221,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   /// The number of steps that recording and compiling a step cost.
   static constexpr std::int64_t worth_recording = 200;
   static constexpr std::int64_t first_block = 32;
-  /// The same for parts.
+  /// The number of parts that recording and compiling a part cost.
   static constexpr int worth_recording_parts = 400;
   struct Loop {
     double h = 0;
@@ -360,7 +360,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::int64_t resting_ = 0;  // remaining steps of the pause
   bool behind_walls_ = false;
   std::shared_ptr<const RecordedStep> undone_;  // kept when loops are dropped
-  int failures_ = 0;                            // of recording
+  int failures_ = 0;                            // failures of recording
   std::span<const NamedExpression> summed_{};   // their values after each step are added to sums_
   std::span<StepSum> sums_{};
   std::optional<PartsInNumbers> numbers_;

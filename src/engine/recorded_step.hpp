@@ -20,17 +20,17 @@
 
 namespace hamflow {
 
-/// A step as a program, and where its values are in the archives of state, method and probe, in this order; the last
-/// value is the number of steps from the start of time, as a double.
+/// A step as a program. Its values are the numbers in the archives of state, method and probe, in this order. The last
+/// value is the number of steps since the start time, as a double.
 struct RecordedStep {
   Program program;
   std::vector<CarriedField> fields;
-  std::vector<std::size_t> state;  // which values are q, then p
+  std::vector<std::size_t> state;  // the indices of the values of q, then p
   /// With walls, the values before the last one: words that count bounces, 0 at the start of a loop, or one number that
   /// is 1 if a step was not taken and the loop ends.
   std::size_t words = 0;
   bool stops = false;
-  Effort effort{};  // of one step, only evaluations
+  Effort effort{};  // the evaluations of one step
   std::size_t first_word() const { return program.values() - 1 - words; }
   std::size_t stop() const { return program.values() - 2; }
 };
@@ -78,7 +78,7 @@ namespace detail {
 /// The numbers of a traced object, before or after the step.
 struct TracedFields {
   std::vector<Trace<double>> traces;
-  std::vector<std::optional<std::uint64_t>> others;  // bits, in the order of all fields; none for a trace
+  std::vector<std::optional<std::uint64_t>> others;  // bits in the order of all fields; nullopt for a trace
 };
 template <class... Objects>
 TracedFields traced_fields(Objects&... objects) {
@@ -95,7 +95,7 @@ TracedFields traced_fields(Objects&... objects) {
       objects...);
   return all;
 }
-/// The changes of fields in a step; empty if a field changes in another way than a counter.
+/// Returns how the fields change in a step. It is empty if a field that is not a trace changes unlike a counter.
 std::vector<CarriedField> carried_fields(const TracedFields& before, const TracedFields& after,
                                          const std::vector<bool>& counts);
 }  // namespace detail
@@ -103,19 +103,20 @@ std::vector<CarriedField> carried_fields(const TracedFields& before, const Trace
 using TracedMonitor = StepMonitor<Trace<double>, dynamic>;
 struct NoDensity {};
 
-/// Time as a StepClock counts it, for the recording: t = start + position step.
+/// The time of a recording, as in StepClock: t = start + position step.
 struct RecordedTime {
   double start = 0;
-  double step = 0;  // of the clock, forwards
+  double step = 0;  // the step size of the clock, positive forward
   double position = 0;
   double direction = 1;
 };
 
 /// Records the step from (q, p).
-/// @tparam A of traces; where it has any lengths (detail/methods/step_density.hpp) the density of steps is carried, too
-/// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
-/// @param monitor of steps of varying length   @param walls hard ones; null: none
-/// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
+/// @tparam A an arithmetic of traces; if it has any step size (detail/methods/step_density.hpp), the step density is
+/// carried, too
+/// @param method bound to the traced problem   @param watch whether energy and invariants are computed in every step
+/// @param monitor the monitor of varying steps   @param walls hard walls; null: none
+/// @return nullopt if the step branches on the state or is longer than most_recorded_operations
 template <class A, class P, class M>
 std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, const RecordedTime& time,
@@ -162,7 +163,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
       }
       if constexpr (requires { method.set_clock(z); }) method.set_clock(z);
     };
-    // On constants, for what the method keeps of it.
+    // A step on constants first, so that the method has the data that it keeps from step to step.
     if (step() != Outcome::done) return std::nullopt;
     set_clock_at(Number(time.position + time.direction));
     if (at == RecordedAt::start) method.invalidate();
@@ -190,12 +191,12 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     auto probe_before = probe;
     if (step() != Outcome::done) return std::nullopt;
     const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
-    const auto seen = z;  // before walls
+    const auto seen = z;  // the state before bounces
     bool is_seen = false;
     add_evaluations(recorded.effort, method.effort(), method_before.effort());
     if (recorded.words > 0) {
       if (!remembers_positions_alone<M>()) return std::nullopt;
-      // After a rejected step a kept force would belong to another time.
+      // With a time-dependent H, the force kept from before a rejected step would belong to another time.
       if (walls->rule == WallRule::reject && problem.has_clock()) return std::nullopt;
       // A step that is rejected or mirrored must not fail.
       Number size(0);

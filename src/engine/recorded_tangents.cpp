@@ -32,14 +32,14 @@ std::optional<Program> with_moving(const Program& program, std::span<const std::
 }
 
 namespace {
-/// The loops for steps of one length with so many vectors: one step from a state, and steps that follow.
+/// The loops for one step size and number of vectors: one for the first step from a state, one for the steps after it.
 struct Loops {
   double h = 0;
   std::size_t vectors = 0;
   std::size_t values = 0;
-  std::vector<std::size_t> moving;  // values whose slopes are carried; the state comes first
+  std::vector<std::size_t> moving;  // the values whose slopes are carried, the state first
   std::unique_ptr<const StepLoop> start;
-  std::unique_ptr<const StepLoop> steady;  // null: steps cannot be taken this way
+  std::unique_ptr<const StepLoop> steady;  // null: the steps cannot be recorded or differentiated
 };
 
 class RecordedTangents {

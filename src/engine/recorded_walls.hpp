@@ -1,6 +1,6 @@
-// Recorded steps at hard walls (docs/design/walls.md). A step that may hit a wall is not taken and the loop ends, so
-// that the simulation can locate the wall; or, with rules that need no location, the bounce is a choice within the step
-// and is counted.
+// Recorded steps at hard walls (docs/design/walls.md). With rules that locate a bounce, the loop ends before a step
+// that may hit a wall, so that the simulation can take it. With other rules, the step itself selects the state after
+// the bounce, and counts it.
 #pragma once
 
 #include <utility>
@@ -12,23 +12,23 @@
 
 namespace hamflow {
 
-/// Hard walls of a recorded step.
+/// The hard walls of a recorded step.
 struct StepWalls {
   std::vector<WallSide<double>> sides;
   WallRule rule = WallRule::event;
-  bool keep_energy = false;  // a bounce does not change a bit of H
+  bool keep_energy = false;  // whether a bounce changes no bit of H
 };
 
 /// The treatment of a recorded step that may hit a wall.
 enum class AtWalls { stop, bounce };
 
-/// Bounces off up to `sides_in_word` sides are counted in one number, each in digits of its own: a loop may go on for
-/// so many steps that no digit overflows.
+/// One number (word) counts the bounces off up to `sides` sides, each in its own bits. A loop runs only for so many
+/// steps that no count can overflow.
 struct BounceWord {
   static constexpr std::size_t sides = 4;
   static constexpr std::int64_t base = std::int64_t{1} << 13;
   static constexpr std::int64_t most_steps = base - 1;
-  /// The increment for a bounce off the k-th side of a word.
+  /// Returns the increment of a word for a bounce off its k-th side.
   static double unit(std::size_t k) { return static_cast<double>(std::int64_t{1} << (13 * k)); }
   static std::int64_t count(double word, std::size_t k) {
     return (static_cast<std::int64_t>(word) >> (13 * k)) & (base - 1);
@@ -36,9 +36,9 @@ struct BounceWord {
   static std::size_t words(std::size_t sides_of_all) { return (sides_of_all + sides - 1) / sides; }
 };
 
-/// How far beyond a wall a step of length h from (q0, p0) to (q1, p1) ends. With `and_turns` also above 0 where the
-/// motion may have been beyond a wall within the step (WallSide::beyond_between); more than one turn within a step is
-/// not seen.
+/// Returns the distance beyond a wall at the end of a step of length h from (q0, p0) to (q1, p1). With `and_turns` it
+/// is also positive if the trajectory may have been beyond a wall within the step (WallSide::beyond_between), provided
+/// that the coordinate turns at most once.
 template <class P, class S>
 S beyond_walls(const P& problem, const std::vector<WallSide<double>>& sides, bool and_turns, double h,
                const Vector<S, dynamic>& q0, const Vector<S, dynamic>& p0, const Vector<S, dynamic>& q1,
@@ -73,7 +73,7 @@ S beyond_walls(const P& problem, const std::vector<WallSide<double>>& sides, boo
 }
 
 namespace detail {
-/// Every number of the objects `to` becomes the one of `from` where flag > 0.
+/// Replaces every number of the objects `to` by that of `from` if flag > 0.
 template <class S, class Objects, class Others>
 void choose_all(const S& flag, Objects& from, Others& to) {
   std::vector<S> numbers;
@@ -91,10 +91,10 @@ void choose_all(const S& flag, Objects& from, Others& to) {
 }
 }  // namespace detail
 
-/// The rule "reject" within a recorded step, see WalledSimulation: from the state before and what the method kept to
-/// that behind the step, `z` and `method`.
-/// @param any above 0 where the step is rejected
-/// @return what is added to each word of counts
+/// Applies the rule "reject" within a recorded step, see WalledSimulation. A rejected step replaces the state `z` and
+/// the data of `method` by those before the step.
+/// @param any set to a positive number if the step is rejected
+/// @return the increments of the words that count bounces
 template <class S, class State, class M>
 std::vector<S> reject_within(const std::vector<WallSide<double>>& sides, State& before, M& method_before, State& z,
                              M& method, S& any) {
@@ -102,7 +102,7 @@ std::vector<S> reject_within(const std::vector<WallSide<double>>& sides, State& 
   const auto q1 = z.positions();
   std::vector<S> words(BounceWord::words(sides.size()), S(0));
   any = S(0);
-  S met_here(0);  // of one coordinate, whose walls are not both met
+  S met_here(0);  // a step meets at most one of the two walls of a coordinate
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const std::size_t i = sides[k].coordinate;
     const S beyond = sides[k].beyond(S(q1[i]));
@@ -110,7 +110,7 @@ std::vector<S> reject_within(const std::vector<WallSide<double>>& sides, State& 
     words[k / BounceWord::sides] = words[k / BounceWord::sides] + met;
     met_here = met_here + met;
     if (k + 1 < sides.size() && sides[k + 1].coordinate == i) continue;
-    auto turned = before.p;  // where several coordinates meet walls, the last
+    auto turned = before.p;  // if several coordinates meet walls, only the last momentum is reversed
     turned[i] = Axis::negated(turned[i]);
     detail::choose_all(met_here, turned, z.p);
     any = any + std::exchange(met_here, S(0));
@@ -120,8 +120,8 @@ std::vector<S> reject_within(const std::vector<WallSide<double>>& sides, State& 
   return words;
 }
 
-/// The rule "mirror" within a recorded step: one that reaches over a wall is turned back, and what the method keeps
-/// with it. Each wall is met once at most: whether the state is inside then is left to the caller.
+/// Applies the rule "mirror" within a recorded step: a state beyond a wall and the data of the method are mirrored.
+/// Each wall is applied at most once; the caller checks whether the state is inside afterwards.
 template <class S, class State, class M>
 std::vector<S> mirror_within(const std::vector<WallSide<double>>& sides, State& z, M& method) {
   using Axis = typename decltype(State::arithmetic)::Axis;

@@ -1,7 +1,7 @@
 // The exact flow to rounding, by an independent method: Gragg's modified midpoint rule extrapolated in h^2
 // (Aitken-Neville), with step control. It is slow and accurate, and independent of the methods that it
-// tests.   [HNW1993, II.9] What is extrapolated is the increment of a step, not the state: its rounding is then
-// relative to the increment, and the state takes it with compensation.
+// tests.   [HNW1993, II.9] It extrapolates the increment of a step instead of the state, so that rounding is relative
+// to the increment, which is added to the state with compensation.
 #pragma once
 
 #include <limits>

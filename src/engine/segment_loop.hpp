@@ -1,7 +1,7 @@
-// Steps of cg(1) of few coordinates by two programs, around which Newton's decisions stand
-// (detail/numerics/newton_progress.hpp): the equations at the present unknowns, and what a step leaves behind, the
-// first guess of the next step included. Their bits are those of RecordedElement. All other steps are left to the
-// simulation.
+// Steps of cg(1) for few coordinates by two programs: one evaluates the equations at the present unknowns, the other
+// completes a step and computes the initial guess of the next one. Newton's method
+// (detail/numerics/newton_progress.hpp) decides between them. The bits are those of RecordedElement. All other steps
+// are left to the simulation.
 #pragma once
 
 #include <algorithm>
@@ -17,29 +17,29 @@
 
 namespace hamflow {
 
-/// Where the numbers of a step stand: h, position, state and probe, the last three solutions (the latest first), the
-/// unknowns and their last correction, then what the equations are there.
+/// The places of the numbers of a step: h, position, state and probe, the last three solutions (latest first), the
+/// unknowns and their last correction, then the values of the equations.
 struct SegmentFrame {
   std::size_t n = 0;         // coordinates
   std::size_t m = 0;         // unknowns of Newton, n or 2 n
   std::size_t recorded = 0;  // numbers in the archives of state and probe
 
   bool is_natural() const { return m == n; }
-  /// As TracedFrame knows them.
+  /// The frame as TracedFrame uses it.
   IterationFrame carried() const { return {n, m, recorded}; }
   std::size_t memory() const { return carried().memory(); }
   std::size_t x() const { return memory() + 3 * m; }
   std::size_t correction() const { return x() + m; }
   std::size_t residual() const { return correction() + m; }
-  std::size_t lost() const { return residual() + m; }  // rounding error of the residual; all of it if it is not removed
-  std::size_t tangent() const { return lost() + m; }   // row after row
+  std::size_t lost() const { return residual() + m; }  // rounding error of the residual
+  std::size_t tangent() const { return lost() + m; }   // the Jacobian, row by row
   std::size_t free_displacement() const { return tangent() + m * m; }
   std::size_t sum() const { return free_displacement() + 1; }
   std::size_t target() const { return sum() + m; }
-  std::size_t noise() const { return target() + m; }      // of a general element
-  std::size_t stiffness() const { return target() + m; }  // of a natural one
-  // With quadrature = "auto": H at the state; by how much more than rounding explains the points miss the work done in
-  // the last step, and H has changed.
+  std::size_t noise() const { return target() + m; }      // for a general element
+  std::size_t stiffness() const { return target() + m; }  // for a natural element
+  // With quadrature = "auto": H at the state, then two numbers of the last step beyond rounding: the error of the
+  // quadrature of the work, and the change of H.
   std::size_t energy() const { return target() + m + m * m; }
   std::size_t missed() const { return energy() + 1; }
   std::size_t change() const { return missed() + 1; }
@@ -50,7 +50,7 @@ class SegmentLoop {
   using P = Erased<double, Capability::smooth>;
 
  public:
-  /// @param work of one evaluation of the equations   @param work_of_finish of what judges the points
+  /// @param work the work of one evaluation of the equations   @param work_of_finish the work of testing the points
   SegmentLoop(const SegmentFrame& frame, const Program& first_guess, const Program& equations, const Program& finish,
               const Effort& work, const Effort& work_of_finish, int most_corrections)
       : frame_(frame),
@@ -62,10 +62,10 @@ class SegmentLoop {
         most_corrections_(most_corrections),
         before_(frame.correction()) {}
 
-  /// Computes the first guess of a step in a frame. @return whether it is valid
+  /// Computes the initial guess of a step in a frame. @return whether it is valid
   bool begin(std::span<double> numbers) const { return first_guess_->run(numbers, 1); }
-  /// Takes steps from a frame with a first guess, until a step must be left to the simulation.
-  /// @return how many were taken; the frame is behind them   @param effort to which their work is added
+  /// Takes steps from a frame with an initial guess, until a step must be left to the simulation.
+  /// @return the number of steps taken; the frame is the one after them   @param effort their work is added to it
   std::int64_t run(std::span<double> numbers, std::int64_t steps, Effort& effort) {
     std::int64_t taken = 0;
     for (; taken < steps; ++taken) {
@@ -173,8 +173,8 @@ class SegmentLoop {
 };
 
 /// Records the programs of a segment loop.
-/// @tparam natural H = p^T M^-1 p/2 + V(q)   @tparam P the traced problem of the element   @tparam Watched that of the
-/// probe
+/// @tparam natural whether H = p^T M^-1 p/2 + V(q)   @tparam P the traced problem of the element
+/// @tparam Watched the traced problem of the probe
 template <bool natural, class P, class Watched>
 class SegmentRecorder {
   using Number = Trace<double>;
@@ -184,7 +184,7 @@ class SegmentRecorder {
   using Frame = detail::TracedFrame<Watched, Compensated<Number>>;
 
  public:
-  /// @param options with the points of the present rule   @param judges whether every step judges them
+  /// @param options with the present number of points   @param judges whether every step tests the points
   SegmentRecorder(const P& problem, const Watched& watched, const CgOptions& options, const SegmentFrame& frame,
                   bool judges)
       : problem_(problem), watched_(watched), setup_(problem, options), frame_(frame), judges_(judges) {}

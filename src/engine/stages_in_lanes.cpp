@@ -28,7 +28,7 @@ struct OfLane {
   std::size_t lane;
 };
 
-/// The program in which the values behind the first `values` are those of one lane.
+/// Changes a program so that its values after the first `values` are read from single lanes.
 Program with_lanes(const Program& program, std::size_t values, std::span<const OfLane> from) {
   Program all;
   all.constants = program.constants;
@@ -65,16 +65,16 @@ Program with_lanes(const Program& program, std::size_t values, std::span<const O
 
 }  // namespace
 
-/// One of the programs, while it is recorded.
+/// The recording of one program.
 class StagesInLanes::Recording {
  public:
-  /// @param values of one lane   @param wanted which of them are read of other lanes
+  /// @param values the values of one lane   @param wanted the values that are read from other lanes
   Recording(const std::vector<double>& values, std::vector<OfLane> wanted)
       : recorder_(Folding::exact, most_recorded_operations), wanted_(std::move(wanted)) {
     for (const double value : values) numbers.push_back(recorder_.input(value));
     for (const OfLane& of : wanted_) others_.push_back(recorder_.input(values[of.value]));
   }
-  /// The number of another lane, which was wanted.
+  /// Returns a value of another lane, which has to be one of `wanted`.
   const Number& of(std::size_t value, std::size_t lane = 0) const {
     const auto found = std::find_if(wanted_.begin(), wanted_.end(),
                                     [&](const OfLane& one) { return one.value == value && one.lane == lane; });
@@ -108,7 +108,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
   const std::size_t registers = (k + in_register - 1) / in_register;
   all.scale_ = table.scale;
 
-  std::vector<double> values(at.size());  // of a step of length 0
+  std::vector<double> values(at.size());  // the values for a step of length 0
   std::copy(q.begin(), q.end(), values.begin() + Layout::q0);
   std::copy(p.begin(), p.end(), values.begin() + static_cast<std::ptrdiff_t>(at.p0()));
   const auto stages_of = [&](std::size_t first) {
@@ -121,14 +121,14 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
   const auto first_lane_of = [&](std::vector<OfLane>& wanted, std::size_t first, std::size_t count) {
     for (std::size_t a = 0; a < count; ++a) wanted.push_back({first + a, 0});
   };
-  // As add_half_increment, with e = 1.
+  // Corresponds to add_half_increment with e = 1.
   const auto middle = [&](const Recording& r, std::size_t from, std::size_t stages, std::size_t a) {
     Number sum(0);
     for (std::size_t j = 0; j < k; ++j) sum += r.of(stages + a, j);
     return r.of(from + a) + sum / Number(2);
   };
   try {
-    {  // NaturalAverages::displacements
+    {  // corresponds to NaturalAverages::displacements
       auto wanted = stages_of(at.x());
       first_lane_of(wanted, at.p0(), n);
       Recording r(values, wanted);
@@ -144,7 +144,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
       for (std::size_t a = 0; a < n; ++a) r.numbers[at.u() + a] = r.numbers[at.reach()] * v[a];
       all.displace_ = r.loop(lanes, registers);
     }
-    {  // NaturalAverages::evaluate, and the correction
+    {  // corresponds to NaturalAverages::evaluate, and computes the correction
       auto wanted = stages_of(at.u());
       first_lane_of(wanted, Layout::unit, 2);
       first_lane_of(wanted, at.q0, n);
@@ -180,7 +180,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
       r.numbers[at.sizes()] = largest;
       all.evaluate_ = r.loop(lanes, registers);
     }
-    {  // NaturalAverages::increment_of, but for the sums over the stages, and detail::continued
+    {  // corresponds to NaturalAverages::increment_of without the sums over the stages, and to detail::continued
       auto wanted = stages_of(at.at_end());
       first_lane_of(wanted, at.p0(), n);
       Recording r(values, wanted);
@@ -216,7 +216,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
   if (all.width_ > most_lanes) return std::nullopt;
   all.numbers_.assign(at.size() * all.width_, 0);
   all.no_constants_ = all.evaluate_->prepared({});
-  for (std::size_t l = 0; l < k; ++l) {  // lanes without a stage have coefficients 0: they stay in the middle
+  for (std::size_t l = 0; l < k; ++l) {  // lanes without a stage have coefficients 0
     all.row(at.weight())[l] = table.weight[l * k + l];
     all.row(at.unit_weight())[l] = table.unit_weight[l * k + l];
     for (std::size_t j = 0; j < k; ++j) {
@@ -282,7 +282,7 @@ double StagesInLanes::distance_of(std::span<const double> other) const {
 
 bool StagesInLanes::end(std::span<double> x, std::span<double> dq, std::span<double> dp, std::span<double> next) {
   if (!run(*finish_)) return false;
-  // Two sums side by side, of q and of p, each as detail::KeptSum.
+  // Adds the sums for q and for p in the same loop, each as detail::KeptSum does.
   for (std::size_t a = 0; a < at_.n; ++a) {
     const double* const impulse = row(at_.at_end() + a);
     const double* const d = row(at_.d() + a);

@@ -1,7 +1,7 @@
-// Gauss collocation by fixed-point iteration with the stages side by side in vector registers, one in each lane, for H
-// = p^T M^-1 p/2 + V(q): one evaluation of all forces is one of the recorded force on registers, and so is everything
-// else of a correction. A stage reads the values of the others from their lanes (Instruction::of_lane). The bits are
-// those of NaturalAverages, operation by operation.   [AntonanaMakazagaMurua2025]
+// Gauss collocation by fixed-point iteration for H = p^T M^-1 p/2 + V(q), with one stage in each lane of vector
+// registers. One evaluation of the recorded force on registers gives the forces of all stages, and the rest of a
+// correction works the same way. A stage reads the values of others from their lanes (Instruction::of_lane). The
+// operations, and so the bits, are those of NaturalAverages.   [AntonanaMakazagaMurua2025]
 #pragma once
 
 #include <memory>
@@ -14,32 +14,33 @@
 
 namespace hamflow {
 
-/// The programs of a problem, and the numbers that they work on. Copies share the programs.
+/// The programs for a problem and their numbers. Copies share the programs.
 class StagesInLanes {
  public:
   using Traced = AnyProblem<Trace<double>, Capability::separable | Capability::quadratic_kinetic>;
 
-  /// nullopt if the force has branches that cannot be guarded, or is too long (most_recorded_operations).
-  /// @param table of stages   @param q, p the state at which H is recorded   @param lanes interpreted where there is no
-  /// machine code for them
+  /// Records the programs. Returns nullopt if the force has branches that cannot be guarded, or is longer than
+  /// most_recorded_operations.
+  /// @param table the coefficients of the stages   @param q, p the state at which H is recorded
+  /// @param lanes the instruction set; programs are interpreted if it is not available
   static std::optional<StagesInLanes> recorded(const Traced& problem, const AverageTable<double>& table,
                                                std::span<const double> q, std::span<const double> p, LaneSet lanes);
 
-  /// Begins a step. @param x impulses of the stages, the first guess: those of one coordinate are neighbours
+  /// Begins a step. @param x the initial guess: the impulses of the stages, with those of one coordinate adjacent
   void begin(double h, std::span<const double> q, std::span<const double> p, std::span<const double> x);
-  /// Corrects the impulses once. @return whether the recorded force is that of every stage
+  /// Corrects the impulses once. @return whether the guards of the recorded force hold at every stage
   bool correct();
-  /// The largest of the corrections in units of what rounding makes of them (detail::in_units_of_noise); infinite where
-  /// one is not finite.
+  /// The largest correction in units of its rounding error (detail::in_units_of_noise); infinite if a correction is not
+  /// finite.
   double size() const { return size_; }
-  /// Ends the step with the last correction. @param x, dq, dp the impulses and the increments of the state   @param
-  /// next impulses of the motion that continues it, the first guess of the next step
+  /// Ends the step with the last correction. @param x, dq, dp receive the impulses and the increments of the state
+  /// @param next receives the extrapolated impulses, which are the initial guess of the next step
   bool end(std::span<double> x, std::span<double> dq, std::span<double> dp, std::span<double> next);
-  /// After the end: the size, in the same units, of the distance of other impulses from those at the end.
+  /// After end(): returns the distance of other impulses from the final ones, in the same units as size().
   double distance_of(std::span<const double> other) const;
 
  private:
-  /// Where values begin, in the order of their programs.
+  /// The places of values, in the order of the programs.
   struct Layout {
     std::size_t n = 0;
     std::size_t k = 0;
@@ -50,13 +51,13 @@ class StagesInLanes {
     std::size_t x() const { return p0() + n; }
     std::size_t u() const { return x() + n; }  // displacements
     std::size_t correction() const { return u() + n; }
-    std::size_t noise() const { return correction() + n; }  // what targets round by, in units of epsilon
-    std::size_t unit_of() const { return noise() + n; }     // of the corrections
-    std::size_t sizes() const { return unit_of() + n; }     // the largest correction in such units
+    std::size_t noise() const { return correction() + n; }  // rounding errors of the targets, in units of epsilon
+    std::size_t unit_of() const { return noise() + n; }     // units of the corrections
+    std::size_t sizes() const { return unit_of() + n; }     // the largest correction in these units
     std::size_t at_end() const { return sizes() + 1; }      // impulses at the end of the step
-    std::size_t d() const { return at_end() + n; }          // increments of q that they make, stage by stage
-    std::size_t lost() const { return d() + n; }            // and what those have lost
-    std::size_t next() const { return lost() + n; }         // impulses of the motion that continues the step
+    std::size_t d() const { return at_end() + n; }          // increments of q from them, stage by stage
+    std::size_t lost() const { return d() + n; }            // rounding errors of these increments
+    std::size_t next() const { return lost() + n; }         // extrapolated impulses of the next step
     std::size_t reach() const { return next() + n; }        // h beta_j
     std::size_t weight() const { return reach() + 1; }
     std::size_t unit_weight() const { return weight() + 1; }
@@ -74,7 +75,7 @@ class StagesInLanes {
   double measured() const;
 
   Layout at_;
-  std::size_t width_ = 0;  // lanes
+  std::size_t width_ = 0;  // number of lanes
   std::shared_ptr<const LaneLoop> displace_;
   std::shared_ptr<const LaneLoop> evaluate_;
   std::shared_ptr<const LaneLoop> finish_;

@@ -29,7 +29,7 @@ State<R> joined(const Vector<R, N>& q, const Vector<R, N>& p) {
   z.insert(z.end(), p.begin(), p.end());
   return z;
 }
-/// An orthonormal basis of what is orthogonal to all of these, by Gram and Schmidt, twice.
+/// Returns an orthonormal basis of the orthogonal complement of the rows, by the Gram-Schmidt process, done twice.
 inline std::vector<State<double>> orthogonal_to(std::vector<State<double>> rows) {
   const std::size_t size = rows.at(0).size();
   const std::size_t given = rows.size();
@@ -54,19 +54,19 @@ inline std::vector<State<double>> orthogonal_to(std::vector<State<double>> rows)
       }
     }
     const double rest = length();
-    if (!(rest > 1e-6 * before)) continue;  // in the span of the others
+    if (!(rest > 1e-6 * before)) continue;  // the vector depends on the others
     for (double& part : x) part /= rest;
     all.push_back(x);
   }
   all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(given));
   return all;
 }
-/// A second copy of the state that the method carries.
+/// A method that carries a second copy of the state.
 template <class M>
 concept CarriesCopy = requires(const M& method) {
   method.copy();
 };
-/// Brings a state and a method there; of (q, x, p, y) the copy is the method's.
+/// Sets a state and a method to z. If z is (q, x, p, y), (x, y) is the copy that the method carries.
 template <class A, std::size_t N, class M, class R>
 PhasePoint<A, N> placed(const State<R>& z, [[maybe_unused]] std::size_t size, [[maybe_unused]] M& method) {
   const auto part = [&](std::size_t first) {
@@ -85,7 +85,7 @@ PhasePoint<A, N> placed(const State<R>& z, [[maybe_unused]] std::size_t size, [[
   }
   return point;
 }
-/// The state that it is then, with as many numbers as z.
+/// Reads a state and a method into z; the inverse of placed().
 template <class A, std::size_t N, class M, class R>
 void taken_from(const PhasePoint<A, N>& point, [[maybe_unused]] const M& method, State<R>& z) {
   const auto put = [&](std::size_t first, const auto& x) {
@@ -115,7 +115,7 @@ State<R> flow_of(const P& problem, const State<R>& z, const R& t) {
   }();
   return {end.begin(), end.end()};
 }
-/// The nearest state that meets the constraints of a problem.
+/// Projects a state to the nearest one that satisfies the constraints of a problem.
 template <class P, class R>
 State<R> settled_on([[maybe_unused]] const P& problem, const State<R>& z) {
   if constexpr (Constrained<P>) {
@@ -129,10 +129,11 @@ State<R> settled_on([[maybe_unused]] const P& problem, const State<R>& z) {
 }
 }  // namespace detail
 
-/// What a map has besides steps in double and long double: nothing in quad; steps and flows in quad, compiled with it;
-/// or both, and the flow in long double, from elsewhere, where they are compiled already.
+/// The functions of a map in addition to steps in double and long double. nothing: none. quad: steps and flows in quad,
+/// compiled with the map. given: steps and flows in quad, and the flow in long double, as functions that are compiled
+/// in other files.
 enum class Beyond { nothing, quad, given };
-/// Beyond::given.
+/// The functions for Beyond::given.
 struct GivenMaps {
   std::function<std::unique_ptr<Simulation>(const State<double>& z, double h)> simulation;
   std::function<State<long double>(const State<long double>& z, long double t)> flow;
@@ -162,7 +163,7 @@ class StepMapOf final : public StepMap {
   using Arithmetic = std::conditional_t<always_compensated<Recipe>(), Compensated<R>, Plain<R>>;
 
  public:
-  /// @param make Family<R> for double, long double and what is beyond: called as make.template operator()<R>()
+  /// @param make returns Family<R>, called as make.template operator()<R>() for double, long double and quad if needed
   template <class Make>
   StepMapOf(Make&& make, Recipe recipe) requires(beyond != Beyond::given)
       : problem_(make.template operator()<double>()),
@@ -228,7 +229,7 @@ class StepMapOf final : public StepMap {
     }
   }
 
-  /// One direction at a time: column k is the derivative along coordinate k of z.
+  /// Computes the Jacobian column by column; column k is the derivative along coordinate k of z.
   std::vector<std::vector<double>> jacobian(const State<double>& z, double h) const override {
     if constexpr (Recipe::implicit) {
       return implicit_jacobian(z, h);
@@ -305,7 +306,7 @@ class StepMapOf final : public StepMap {
       return {};
     }
   }
-  /// The gradients of g and of g' M^-1 p as functions of (q, p).
+  /// Returns the gradients of the constraints g and of g' M^-1 p, as functions of (q, p).
   std::vector<State<double>> residual_gradients(const State<double>& z) const {
     std::vector<State<double>> all;
     for (std::size_t k = 0; k < z.size(); ++k) {
@@ -345,7 +346,7 @@ class StepMapOf final : public StepMap {
     return true;
   }
 
-  /// x as dual numbers; the k-th of all coordinates, of which x is `first` and following, is the variable.
+  /// Returns x as dual numbers. x has the coordinates from `first` on, and coordinate k of all is the variable.
   template <std::size_t N>
   static Vector<Dual<double, 1>, N> seeded(const Vector<double, N>& x, std::size_t k, std::size_t first = 0) {
     auto y = zeros<Dual<double, 1>, N>(x.size());
@@ -356,7 +357,7 @@ class StepMapOf final : public StepMap {
     return y;
   }
 
-  /// dz1/dz0 of one implicit step, column by column.
+  /// Returns dz1/dz0 of one implicit step, column by column.
   std::vector<std::vector<double>> implicit_jacobian(const State<double>& z, double h) const {
     using A = Arithmetic<double>;
     auto method = recipe_.template bind<P, A>(problem_);
@@ -372,7 +373,7 @@ class StepMapOf final : public StepMap {
     return rows;
   }
 
-  /// x as dual numbers along the tangent vector whose part from `first` on belongs to x.
+  /// Returns x as dual numbers along a tangent vector, whose part from `first` on belongs to x.
   static Vector<Dual<double, 1>, n> along(const V& x, const State<double>& tangent, std::size_t first) {
     auto y = zeros<Dual<double, 1>, n>(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -382,7 +383,8 @@ class StepMapOf final : public StepMap {
     return y;
   }
 
-  /// One method takes one direction through all steps, so that what it keeps from step to step is used here, too.
+  /// Carries one tangent vector through all steps with the same method object, so that it can use its data from step to
+  /// step.
   bool explicit_tangent(const State<double>& z, State<double>& tangent, double h, std::int64_t steps) const {
     using A = Plain<Dual<double, 1>>;
     auto method = recipe_.template bind<P, A>(problem_);
@@ -413,8 +415,8 @@ class StepMapOf final : public StepMap {
 
   /// One step and its tangents. With r(z0, U) = 0 and z1 = z0 + E(U) the implicit function theorem gives
   ///     t1 = t0 - E_U (dr/dU)^-1 (dr/dz0) t0
-  /// at the converged solution, for any number of unknowns. A step that was replaced by two halves does not solve the
-  /// one equation: refused.
+  /// at the converged solution, for any number of unknowns. Returns false for a step that was halved, because it does
+  /// not solve this equation.
   template <class Method, class Point>
   bool implicit_step(Method& method, double h, Point& point, std::vector<State<double>>& tangents) const {
     using D = Dual<double, 1>;
@@ -433,7 +435,7 @@ class StepMapOf final : public StepMap {
       for (std::size_t i = 0; i < unknowns; ++i) out[i * stride] = r[i].slope[0];
     };
     const State<double> fixed(2 * size_);
-    std::vector<State<double>> increments(unknowns);  // E_U, column by column
+    std::vector<State<double>> increments(unknowns);  // the columns of E_U
     for (std::size_t k = 0; k < unknowns; ++k) {
       const auto at = seeded(u, k);
       residual(along(q0, fixed, 0), along(p0, fixed, size_), at, &by_unknowns[k], unknowns);

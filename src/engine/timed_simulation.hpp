@@ -72,7 +72,7 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   void make_ready() override { recorded_->make_ready(); }
   Outcome step_ordinarily(const RecordedStep& undone) override { return recorded_->step_ordinarily(undone); }
   const RecordedStep* undone_step() const override { return recorded_ != nullptr ? recorded_->undone_step() : nullptr; }
-  /// Steps of H(q, p, t) are not differentiated.
+  /// Not supported for H(q, p, t).
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt) override { return nullptr; }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {
     return recorded_->read_values(step, values);
@@ -89,14 +89,14 @@ class TimedSimulation final : public Simulation, public RecordedMember {
     strip(frame.digits.q);
     strip(frame.digits.p);
   }
-  /// Nothing where a look has found nothing.
+  /// Removes the entries of the hidden coordinates, if there are any.
   template <class T>
   static void strip(std::vector<T>& of_each) {
     if (!of_each.empty()) of_each.resize(of_each.size() - clock_coordinates);
   }
 
   std::unique_ptr<Simulation> extended_;
-  RecordedMember* recorded_;  // the same, where it is one
+  RecordedMember* recorded_;  // the interface of the simulation inside; null if it has none
 };
 
 }  // namespace hamflow

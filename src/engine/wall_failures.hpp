@@ -1,4 +1,4 @@
-// A failure at walls that a smaller step does not cure.
+// A failure at walls that a smaller step size does not avoid.
 #pragma once
 
 #include <string_view>

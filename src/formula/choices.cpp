@@ -18,7 +18,7 @@ namespace {
 using Keys = FormulaKeys;
 
 std::string listed(const std::vector<std::string>& words) { return "[" + joined(words) + "]"; }
-/// name = text; name = text
+/// Writes "name = text; name = text".
 template <class Pairs>
 std::string named(const Pairs& pairs) {
   return joined(
@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const std::string& tex
   return all;
 }
 
-/// The parameters without values that no name, index or sum needs.
+/// Removes the values of parameters that do not determine a name, an index or a sum.
 Texts without_values(const Texts& parameters, const FormulaSymbols& symbols) {
   Texts all;
   for (const auto& [name, text] : parameters) {
@@ -107,7 +107,7 @@ Choices central_formula_choices(const std::string& potential, const Texts& param
   // V is checked first, so that errors point into the typed text.
   const formula::ProblemNames names = formula::names_of({.coordinates = {"r"}, .parameters = parameters});
   FormulaSymbols symbols = formula::symbols_of(names);
-  symbols.names[1] = "t";  // there is no momentum in V
+  symbols.names[1] = "t";  // V contains no momentum
   symbols.names.erase(symbols.names.begin() + (use.has_time ? 2 : 1), symbols.names.begin() + 3);
   symbols.what = "names of V(r)";
   std::set<std::string> needed;
@@ -196,7 +196,7 @@ FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& p
   for (const SyntaxPart& part : syntax.parts) {
     if (part.kind == SyntaxPart::Kind::let || part.kind == SyntaxPart::Kind::sum) locals.emplace(part.word);
   }
-  // In the order of the text; operands come before their operation.
+  // The words are sorted by their place in the text, because in the syntax operands come before their operation.
   std::vector<std::pair<std::size_t, std::string>> words;
   for (const SyntaxPart& part : syntax.parts) {
     if (part.kind == SyntaxPart::Kind::name && !locals.contains(std::string(part.word))) {
@@ -212,7 +212,7 @@ FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& p
     const bool numbered = std::all_of(word.begin() + 1, word.end(), is_digit);
     return word.starts_with('p') && numbered ? "q" + word.substr(1) : std::string();
   };
-  std::map<std::string, std::string> momenta;  // of coordinates
+  std::map<std::string, std::string> momenta;  // by coordinate
   for (const std::string& word : all) {
     if (const std::string q = coordinate_of(word); !q.empty()) momenta[q] = word;
   }

@@ -1,4 +1,4 @@
-// The texts of a typed problem as choices, unchecked.
+// Converts the choices of a typed problem to its texts, without checks.
 #pragma once
 
 #include "hamflow/formula/problem_texts.hpp"

@@ -6,7 +6,7 @@ namespace hamflow::formula {
 
 namespace {
 
-/// The exponent where a power is a product: a whole number, or a negated one.
+/// Returns the exponent if it is a whole number or a negated one, so that the power is a product.
 std::optional<int> whole_exponent(const Graph& graph, int exponent) {
   const bool negated = graph[exponent].op == Op::negate;
   const Node& n = graph[negated ? graph[exponent].a : exponent];
@@ -23,7 +23,8 @@ std::optional<int> whole_exponent(const Graph& graph, int exponent) {
 Code code_of(const Graph& graph, std::span<const int> outputs, const std::vector<bool>& fixed) {
   const auto size = static_cast<std::size_t>(graph.size());
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
-  // Operands come before what is made of them: one walk backwards finds what is needed, one forwards what is constant.
+  // Operands come before their operations. A backward pass finds the nodes that are needed, a forward pass the
+  // constants.
   std::vector<bool> needed(size);
   std::vector<std::optional<int>> whole(size);
   for (const int output : outputs) needed[at(output)] = true;

@@ -23,7 +23,7 @@ int Emission::scaled_value(int form, int symbol, bool negated) {
 Signed Emission::of_form(int form) {
   if (const auto known = known_.find(form); known != known_.end()) return known->second;
   if (++depth_ > 1000) throw Error("found functions nested more than 1000 deep; allowed at most 1000");
-  const Terms terms = forms_[form].terms;  // forms move as new ones come
+  const Terms terms = forms_[form].terms;  // a copy, because adding forms moves them in memory
   const Signed s = of_sum(terms);
   --depth_;
   known_.emplace(form, s);
@@ -43,7 +43,7 @@ Signed Emission::of_sum(const Terms& terms) {
   if (terms.empty()) return {number(0)};
   if (terms.size() == 1) return of_term(terms[0]);
   if (const auto s = of_one_base(terms)) return *s;
-  // Groups in the order of their first terms.
+  // Groups are in the order of their first terms.
   std::vector<std::pair<std::string, Terms>> groups;
   for (const Term& term : terms) {
     std::string key;
@@ -76,7 +76,7 @@ Signed Emission::of_sum(const Terms& terms) {
   return added(parts);
 }
 
-/// Terms of equal degree, or in one base: what they have in common stands before them.
+/// Emits a sum of terms of equal degree, or of powers of one base, with their common factors before it.
 Signed Emission::of_group(const Terms& terms) {
   if (terms.size() == 1) return of_term(terms[0]);
   if (const auto s = of_one_base(terms)) return *s;
@@ -89,7 +89,7 @@ Signed Emission::of_group(const Terms& terms) {
   return {all.node, all.negative != inside.negative};
 }
 
-/// Takes what all terms have in common out of them.
+/// Divides all terms by their common factors, and returns these.
 Term Emission::extracted(Terms& terms) {
   Term common;
   const Rational first = terms[0].c;
@@ -128,7 +128,7 @@ Term Emission::extracted(Terms& terms) {
   return common;
 }
 
-/// Powers of one base and constants alone, whose exponents differ by whole numbers.
+/// Emits a sum of powers of one base by Horner's scheme, if the exponents differ by whole numbers; else nullopt.
 std::optional<Signed> Emission::of_one_base(const Terms& terms) {
   int base = -1;
   bool negative = true;
@@ -183,7 +183,7 @@ Signed Emission::nested(int base, const Terms& terms) {
     const Rational gap = *formula::sum(exponents[k + 1], -exponents[k]);
     const Coefficient own = coefficient(sorted[k]);
     Signed product_{-1};
-    if (gap.is_zero()) {  // like terms that could not be collected
+    if (gap.is_zero()) {  // like terms with coefficients that could not be added as fractions
       product_ = inner.node < 0 ? as_node(last) : inner;
     } else {
       const Signed step = power(base, gap);
@@ -205,7 +205,7 @@ Signed Emission::inverse_powers(int base, const Terms& terms) {
   for (const Term& t : terms) gap = std::gcd(gap, -exponent_of(t, base).up - first);
   if (gap == 0) return nested(base, terms);
   const std::int64_t rest = first % gap;
-  // 1/B^gap, by way of 1/B^2 where that goes
+  // 1/B^gap, computed from 1/B^2 if gap is even
   const Signed b = of_base(base);
   const bool even = gap % 2 == 0;
   const int one_over = out_.node(Op::divide, number(1), even ? whole_power(b.node, 2) : b.node);
@@ -247,7 +247,7 @@ Emission::Coefficient Emission::coefficient(const Term& term) {
     others = true;
     const Rational size = f.exponent.up < 0 ? -f.exponent : f.exponent;
     int& side = f.exponent.up < 0 ? below : above;
-    if (size.is_whole() && size.up <= 4) {  // m l l, factor by factor
+    if (size.is_whole() && size.up <= 4) {  // a short power is multiplied factor by factor, as in m l l
       const Signed b = of_base(f.base);
       for (std::int64_t k = 0; k < size.up; ++k) {
         side = product(side, b.node);
@@ -260,7 +260,7 @@ Emission::Coefficient Emission::coefficient(const Term& term) {
     }
   }
   if (!others) {
-    const bool exact = std::has_single_bit(static_cast<std::uint64_t>(down));  // dividing by it is multiplying
+    const bool exact = std::has_single_bit(static_cast<std::uint64_t>(down));  // its reciprocal is exact
     if (up == 1 && !exact) {
       c.divisor = down;
       return c;
@@ -286,7 +286,7 @@ Signed Emission::as_node(const Coefficient& c) {
   return {c.divisor == 1 ? node : out_.node(Op::divide, node, number(c.divisor)), c.negative};
 }
 
-/// @param inside one more factor, a node   @param scale a node that the constant is multiplied by
+/// Emits a term.   @param inside the node of a further factor   @param scale a node that multiplies the constant
 Signed Emission::of_term(const Term& term, int inside, int scale) {
   Coefficient c = coefficient(term);
   if (scale >= 0) c.node = product(scale, c.node);

@@ -1,21 +1,20 @@
-// **Operations from normal forms**, in an order that rounds and costs as what a person would write:
-//   - Constants are multiplied together first, and meet what is not constant once. 1/m is a constant.
-//   - A term is its constant times functions and groups over their powers in the denominator, then times its
-//     coordinates: k/(u sqrt u) is shared by the x and y of a central force. Powers are products and square roots.
-//   - A sum in one base alone is nested (Horner): x (alpha + x^2 beta); if all its powers are negative and whole, it is
-//   a
-//     polynomial in 1/x^g: 12 (i6 i6 - i6)/x.
-//   - Other sums are added up as they were typed, terms of equal degree in the coordinates together, common factors
-//     before them: q2 + lambda (q1^2 - q2^2).
-// With these rules the forces of the built-in problems come out with the bits of their hand-written functions
-// (tests/unit/formula_bits_test.cpp says which).
+// **Operations from normal forms.** The order of operations rounds and costs as a person would write them:
+//   - Constants are multiplied with each other first, then once with the rest of a term. 1/m is a constant.
+//   - A term is its constant times functions and groups, divided by those in the denominator, then times its
+//     coordinates. The x and y components of a central force share k/(u sqrt u). Powers are products and square roots.
+//   - A sum of powers of one base is nested (Horner's scheme): x (alpha + x^2 beta). If all its powers are negative
+//     and whole, it is a polynomial in 1/x^g: 12 (i6 i6 - i6)/x.
+//   - Other sums are added in the order in which they were typed. Terms of equal degree in the coordinates are added
+//     together, with common factors before them: q2 + lambda (q1^2 - q2^2).
+// With these rules the forces of many built-in problems have the bits of their hand-written functions;
+// tests/unit/formula_bits_test.cpp lists them.
 #pragma once
 
 #include "form.hpp"
 
 namespace hamflow::formula {
 
-/// A node, or its negative.
+/// A node or its negative.
 struct Signed {
   int node;
   bool negative = false;
@@ -26,16 +25,16 @@ class Emission {
   /// @param out receives the operations; symbols keep their numbers
   Emission(Forms& forms, Graph& out) : forms_(forms), out_(out) {}
 
-  /// The value of a form. @param negated its negative
+  /// Emits the value of a form. @param negated whether to emit its negative instead
   int value(int form, bool negated = false);
-  /// The same multiplied by a symbol, which meets its constants: only for a form of one term.
+  /// Emits a form times a symbol, which is multiplied with the constants first. Only for forms with one term.
   int scaled_value(int form, int symbol, bool negated = false);
 
  private:
   using Terms = std::vector<Term>;
   struct Coefficient {
-    int node = -1;             // none: 1
-    std::int64_t divisor = 1;  // of what it is multiplied with
+    int node = -1;             // -1: the factor is 1
+    std::int64_t divisor = 1;  // a divisor of the rest of the term
     bool negative = false;
   };
 
@@ -52,7 +51,7 @@ class Emission {
   Signed as_node(const Coefficient& c);
   Term extracted(Terms& terms);
 
-  /// base^exponent for a positive exponent.
+  /// Emits base^exponent for a positive exponent.
   Signed power(int base, const Rational& exponent);
   int whole_power(int node, std::int64_t n);
   Signed of_base(int base);

@@ -11,7 +11,7 @@ namespace hamflow::formula {
 
 namespace {
 
-constexpr int deepest = 1000;  // nested functions
+constexpr int deepest = 1000;  // limit for nested functions
 
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> all;
@@ -19,7 +19,7 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return all;
 }
 
-/// From the first to the last that is not 0, without those of the exponent.
+/// Counts the digits of the mantissa from the first to the last one that is not 0.
 std::ptrdiff_t significant_digits(const std::string& text) {
   const std::string mantissa = text.substr(0, text.find_first_of("eE"));
   const std::size_t first = mantissa.find_first_of("123456789");
@@ -28,7 +28,7 @@ std::ptrdiff_t significant_digits(const std::string& text) {
   return std::count_if(between.begin(), between.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The fraction that a decimal text is, if it is one exactly that a double has too: 2, 0.5, 1e3, not 0.1.
+/// Converts a decimal text to a fraction if a double represents it exactly: 2, 0.5 and 1e3, but not 0.1.
 std::optional<Rational> fraction_of(const std::string& text) {
   const double value = std::strtod(text.c_str(), nullptr);
   double scaled = value;
@@ -39,8 +39,8 @@ std::optional<Rational> fraction_of(const std::string& text) {
   }
   if (!(scaled <= 0x1p53) || scaled != static_cast<double>(static_cast<std::int64_t>(scaled))) return std::nullopt;
   const auto found = fraction(static_cast<std::int64_t>(scaled), down);
-  // 0.1 is not the double that is nearest to it: digits that a double does not have are told by the long double, up to
-  // so many of them as it has itself.
+  // The nearest double of a text such as 0.1 has another value, which the comparison with the nearest long double
+  // shows. A text with more digits than a long double has is not converted.
   if (significant_digits(text) > std::numeric_limits<long double>::digits10) return std::nullopt;
   if (!found || std::strtold(text.c_str(), nullptr) != static_cast<long double>(value)) return std::nullopt;
   return found;
@@ -65,7 +65,7 @@ bool Forms::depends(int form, int symbol) const {
   return std::binary_search(all.begin(), all.end(), symbol);
 }
 
-/// Like terms are collected, zeros dropped.
+/// Collects like terms and removes terms that are 0. Returns the number of an equal form if there is one.
 int Forms::intern(Form form) {
   Form clean;
   std::unordered_map<std::string, std::size_t> places;
@@ -136,7 +136,7 @@ Term Forms::product(const Term& a, const Term& b) {
   if (const auto c = formula::product(a.c, b.c)) {
     all.c = *c;
   } else {
-    // Too long for a fraction: one of them becomes a separate constant.
+    // The product is too long for a fraction, so one factor becomes a separate constant.
     const int form = intern({{Term{b.c, {}}}});
     add({base({Base::Kind::group, Op::number, form, -1, {}}), {1, 1}});
   }
@@ -145,7 +145,8 @@ Term Forms::product(const Term& a, const Term& b) {
   return all;
 }
 
-/// 2 x + 2 y is 2 (x + y), -x + 1 is -(x - 1): groups that differ in a factor are one.
+/// Writes a form as a factor times a group: 2 x + 2 y is 2 (x + y), -x + 1 is -(x - 1). Groups that differ only in a
+/// factor become equal.
 Term Forms::as_term(int form, bool with_content) {
   const Form& f = (*this)[form];
   if (f.terms.size() == 1) return f.terms[0];
@@ -177,7 +178,7 @@ int Forms::sum(const std::vector<int>& forms) {
   std::vector<Term> all;
   for (const int form : forms) {
     for (const Term& term : (*this)[form].terms) {
-      // A group that stands alone is no group any more.
+      // A term that consists of one group only is replaced by the terms of the group.
       const bool alone = term.factors.size() == 1 && term.factors[0].exponent.is(1) &&
                          (term.c.is(1) || term.c.is(-1)) && base_at(term.factors[0].base).kind == Base::Kind::group;
       if (!alone) {
@@ -203,7 +204,7 @@ int Forms::power(int x, const Rational& exponent) {
   if (exponent.is(1)) return x;
   if (is_zero(x)) {
     if (exponent.up > 0) return x;
-    return of_base(base({Base::Kind::group, Op::number, x, -1, {}}), exponent);  // 1/0: not finite where it is computed
+    return of_base(base({Base::Kind::group, Op::number, x, -1, {}}), exponent);  // 1/0 is not finite when evaluated
   }
   if (exponent.is_whole()) {
     Term term = as_term(x, true);
@@ -216,7 +217,7 @@ int Forms::power(int x, const Rational& exponent) {
       return intern({{std::move(term)}});
     }
   }
-  // sqrt(x^2) is not x: what is not a base by itself stays together.
+  // sqrt(x^2) is not x, so exponents are only multiplied for a single base with exponent 1.
   const Form& f = (*this)[x];
   const bool simple = f.terms.size() == 1 && f.terms[0].c.is(1) && f.terms[0].factors.size() == 1;
   if (simple) {
@@ -245,7 +246,7 @@ int Forms::of_number(int node) {
   return of_base(base({Base::Kind::number, Op::number, node, -1, {}}));
 }
 
-/// a - b + c as {a, -b, c}: a long sum is one form, not one for each of its partial sums.
+/// Flattens a - b + c to {a, -b, c}, so that a long sum is one form instead of one for each partial sum.
 std::vector<std::pair<int, bool>> Forms::summands(int node) const {
   std::vector<std::pair<int, bool>> all;
   int left = node;
@@ -258,7 +259,8 @@ std::vector<std::pair<int, bool>> Forms::summands(int node) const {
   return all;
 }
 
-/// Operands have lower numbers than what is made of them: all up to the node are made in turn, without recursion.
+/// Makes the form of a node. It does so for all nodes that the node needs in ascending order, without recursion,
+/// because operands have lower numbers than their operations.
 int Forms::of_node(int node) {
   std::vector<int> open{node};
   while (!open.empty()) {
@@ -323,14 +325,14 @@ int Forms::derivative(int form, int symbol) {
   if (const auto known = derivatives_.find({form, symbol}); known != derivatives_.end()) return known->second;
   if (++depth_ > deepest) throw Error("found functions nested more than 1000 deep; allowed at most 1000");
   std::vector<int> parts;
-  const Form whole = (*this)[form];  // forms move as new ones come
+  const Form whole = (*this)[form];  // a copy, because adding forms moves them in memory
   for (const Term& term : whole.terms) {
     for (std::size_t k = 0; k < term.factors.size(); ++k) {
       const Factor& f = term.factors[k];
       const std::vector<int>& in = base_at(f.base).variables;
       if (!std::binary_search(in.begin(), in.end(), symbol)) continue;
       Term rest = term;
-      // c e base^(e - 1) times what else there is
+      // c e base^(e - 1) times the other factors
       const auto lower = formula::sum(f.exponent, {-1, 1});
       if (!lower) throw Error("found an exponent of " + f.exponent.key() + "; allowed smaller ones, below 2^53");
       rest.factors[k].exponent = *lower;
@@ -345,7 +347,7 @@ int Forms::derivative(int form, int symbol) {
   return all;
 }
 
-/// A form as a number, for the rules of derivatives.
+/// A form with the arithmetic of a number, for the rules of derivatives.
 struct FormNumber {
   Forms* forms;
   int form;
@@ -384,7 +386,7 @@ int Forms::derivative_of_base(int index, int symbol) {
     if (depends(b.b, symbol)) {
       result = sum({result, product(product(self, function(Op::log, b.a)), derivative(b.b, symbol))});
     }
-  } else if (b.op == Op::atan2) {  // of (y, x): (x y' - y x')/(x^2 + y^2)
+  } else if (b.op == Op::atan2) {  // atan2(y, x)' = (x y' - y x')/(x^2 + y^2)
     const int y = b.a;
     const int x = b.b;
     const int up = difference(product(x, by_a), product(y, derivative(x, symbol)));
@@ -392,7 +394,7 @@ int Forms::derivative_of_base(int index, int symbol) {
   } else {
     const FormNumber x{this, b.a};
     const FormNumber y{this, self};
-    if (b.op == Op::abs) {  // the sign of a
+    if (b.op == Op::abs) {  // the derivative is the sign of a
       result = product(product(b.a, power(self, {-1, 1})), by_a);
     } else {
       const DerivativeRule<FormNumber> rule = derivative_rule(b.op, x, y, FormNumber{this, one});

@@ -1,8 +1,7 @@
-// **Normal forms**: an expression as a sum of terms, each a fraction times powers of bases. A base is a symbol, a
-// constant that is no short fraction, a function of forms, or a sum in parentheses (a group). Equal forms are one,
-// found again by what they are made of; terms and factors stay in the order in which they were typed. Sums are not
-// multiplied out. On forms derivatives are taken, whether a form depends on a symbol is known, and from them operations
-// are made in an order that rounds as a person would write it (emission.hpp).
+// **Normal forms.** A form is a sum of terms; a term is a fraction times powers of bases. A base is a symbol, a
+// constant that is not a short fraction, a function of forms, or a sum in parentheses (a group). Equal forms are stored
+// once. Terms and factors keep the order in which they were typed, and products of sums are not expanded. Forms have
+// derivatives, know the symbols on which they depend, and are translated to operations (emission.hpp).
 #pragma once
 
 #include <map>
@@ -33,21 +32,21 @@ struct Form {
 struct Base {
   enum class Kind { symbol, number, pi, function, group, power };
   Kind kind;
-  Op op = Op::number;  // of a function
-  int a = -1;          // symbol; number: node of the graph; form of the argument, of a group, of a power's base
-  int b = -1;          // second argument; form of a power's exponent
-  std::vector<int> variables{};  // the symbols that vary on which it depends, in order
+  Op op = Op::number;  // the function, if it is one
+  int a = -1;          // a symbol, the node of a constant, or the form of an argument, a group or the base of a power
+  int b = -1;          // the form of a second argument or of the exponent of a power
+  std::vector<int> variables{};  // the varying symbols on which it depends, in order
 };
 
-/// The forms of expressions of one graph.
+/// The forms of the expressions in a graph.
 class Forms {
  public:
-  /// @param fixed the symbols that are constants   @param longest how many factors all forms together may have
+  /// @param fixed for each symbol, whether it is constant   @param longest limit for the number of factors in all forms
   Forms(const Graph& graph, std::vector<bool> fixed, std::size_t longest);
 
-  /// The form of a node of the graph.
+  /// Returns the form of a node of the graph.
   int of_node(int node);
-  /// Its derivative with respect to a symbol.
+  /// Returns the derivative of a form with respect to a symbol.
   int derivative(int form, int symbol);
 
   int zero() { return constant({0, 1}); }
@@ -59,7 +58,7 @@ class Forms {
   int power(int x, const Rational& exponent);
   int difference(int x, int y) { return sum({x, scaled({-1, 1}, y)}); }
   int function(Op op, int x, int y = -1);
-  /// The sum of some terms of a form.
+  /// Returns the form of a sum of terms.
   int of_terms(std::vector<Term> terms) { return intern({std::move(terms)}); }
 
   const Form& operator[](int form) const { return forms_[static_cast<std::size_t>(form)]; }
@@ -78,7 +77,8 @@ class Forms {
   int made(int node);
   std::vector<std::pair<int, bool>> summands(int node) const;
   int of_number(int node);
-  /// A form as one term: itself, or a group of it.
+  /// Returns a form as a single term: its only term, or a group. @param with_content whether common factors are
+  /// extracted
   Term as_term(int form, bool with_content);
   Term product(const Term& a, const Term& b);
   int general_power(int x, int exponent);
@@ -98,7 +98,7 @@ class Forms {
   std::map<std::pair<int, int>, int> base_derivatives_;
 };
 
-/// Terms of which factors are equal have the same key.
+/// Returns a key that is equal for terms with equal factors.
 std::string key_of(const Term& term);
 
 }  // namespace hamflow::formula

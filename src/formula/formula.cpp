@@ -15,14 +15,14 @@ namespace formula {
 
 namespace {
 
-/// The meaning of a name within a let or a sum.
+/// The meaning of a name inside a let or a sum.
 struct Local {
   std::string_view word;
   int node = -1;
-  std::optional<std::int64_t> whole;  // of the index of a sum
+  std::optional<std::int64_t> whole;  // the value, if it is the index of a sum
 };
 
-/// Resolves names and makes the graph from the syntax tree. Sums are expanded; let shares a node.
+/// Resolves names and makes the graph from the syntax tree. It expands sums; each use of a let shares one node.
 class NameResolver {
  public:
   NameResolver(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols, std::set<std::string>* whole)
@@ -40,8 +40,8 @@ class NameResolver {
     refuse_at(syntax_.text, at, what, allowed, meant);
   }
 
-  /// A chain such as 1 + 2 + ... is as deep as it is long on its left side, so that side is processed without
-  /// recursion.
+  /// Makes the node of an expression. Left operands are processed without recursion, because a chain 1 + 2 + ... is as
+  /// deep on its left side as it is long.
   int node_of(int root) {
     std::vector<int> chain;
     int part = root;
@@ -149,7 +149,7 @@ class NameResolver {
     return negative;
   }
 
-  /// The value of a whole expression of indices, numbers and parameters.
+  /// Evaluates an expression of indices, numbers and parameters that has to be a whole number.
   std::int64_t whole(int i, const char* where, int depth = 0) const {
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const SyntaxPart& part = syntax_[i];
@@ -256,14 +256,14 @@ class NameResolver {
     const auto known = symbols_.known.find(name);
     return known == symbols_.known.end() ? node : checked(part, node, static_cast<long double>(known->second));
   }
-  /// Of p, p_x: the momentum of a coordinate x.
+  /// Finds a declared name that begins with `name`, as p_x does for p.
   std::string begun_by(const std::string& name) const {
     const auto first = std::find_if(symbols_.names.begin(), symbols_.names.end(),
                                     [&](const std::string& other) { return other.starts_with(name + "_"); });
     return first == symbols_.names.end() ? std::string() : *first;
   }
   [[noreturn]] void refuse_name(const SyntaxPart& part, const std::string& name) const {
-    // A list without its index, or an index beyond it.
+    // The name is a list without an index, or with an index that is too large.
     const std::string word(part.word);
     const auto is_entry = [&](const std::string& other) {
       return other.size() > word.size() && other.starts_with(word) && other[word.size()] == '[';
@@ -290,7 +290,7 @@ class NameResolver {
     for (const NamedFunction& f : named_functions()) candidates.emplace_back(f.name);
     std::string near = begun_by(name);
     if (near.empty()) near = nearest(name, candidates);
-    // A short word is near any other, so a proposal must share a letter with it.
+    // Every short word is near to every other one, so a proposal has to share a letter with it.
     if (lower(near).find_first_of(lower(name)) == std::string::npos) near = written_here(name);
     refuse(part.at, name == "t" ? "the time t, which is not allowed here" : "the unknown symbol " + name,
            joined(listed), near);

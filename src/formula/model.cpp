@@ -11,15 +11,15 @@
 namespace hamflow::formula {
 
 namespace {
-constexpr std::size_t longest = 4'000'000;  // factors of all forms: some hundred megabytes
+constexpr std::size_t longest = 4'000'000;  // limit for the factors of all forms; they take some hundred megabytes
 }  // namespace
 
-/// The texts as graph and forms, kept for second derivatives.
+/// The graph and the forms of the texts. They are kept for second derivatives.
 struct Model::Derivation {
   Derivation(const Graph& read, const std::vector<bool>& fixed_symbols)
       : graph(read), fixed(fixed_symbols), forms(graph, fixed_symbols, longest) {}
 
-  /// Code that gives these forms. @param negative their negatives
+  /// A form that code has to compute, or its negative.
   struct Output {
     int form;
     bool negative = false;
@@ -35,7 +35,7 @@ struct Model::Derivation {
     }
     return std::make_shared<const Code>(code_of(out, nodes, fixed));
   }
-  /// T + V, added up as two numbers.
+  /// Returns code for a + b that computes both forms separately and adds them.
   std::shared_ptr<const Code> code_of_sum(int a, int b) {
     Graph out;
     Emission emission(forms, out);
@@ -51,13 +51,13 @@ struct Model::Derivation {
   std::vector<bool> fixed;
   Forms forms;
   int h = -1;
-  int t = -1;  // of a separable H
+  int t = -1;  // the form of T, if H is separable
   int v = -1;
 };
 
 namespace {
 
-/// Whether a factor depends on coordinates or the time, on momenta.
+/// Whether a factor depends on coordinates or time (q), and on momenta (p).
 struct Kinds {
   bool q = false;
   bool p = false;
@@ -72,8 +72,8 @@ Kinds kinds_of(const Forms& forms, const Factor& factor, std::size_t n) {
   return kinds;
 }
 
-/// Constants before a sum are multiplied into it where its terms are of q and of p: (p^2 + q^2)/2.
-/// @param before the constants of all sums around this one, if there are any
+/// Expands a constant times a sum if the sum contains both q and p, such as (p^2 + q^2)/2.
+/// @param before the product of the constants before all enclosing sums, if there are any
 void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out, std::optional<int> before = {},
             int depth = 0) {
   constexpr int most_nested = 1000;
@@ -113,7 +113,7 @@ void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out, std::
   }
 }
 
-/// T and V of H, if every term is of one of them.
+/// Splits H into T and V, if every term depends only on p or only on q.
 std::optional<std::pair<int, int>> parts_of(Forms& forms, int h, std::size_t n) {
   std::vector<Term> all;
   spread(forms, h, n, all);
@@ -133,11 +133,12 @@ std::optional<std::pair<int, int>> parts_of(Forms& forms, int h, std::size_t n) 
   return std::pair{forms.of_terms(of_p), forms.of_terms(of_q)};
 }
 
-/// Whether every term is a constant times a momentum, or times a sum of such terms: 0.5*(2*p_x + p_y).
+/// Whether a form is linear in the momenta: every term is a constant times a momentum, or times a sum of such terms, as
+/// in 0.5*(2*p_x + p_y).
 bool is_linear(const Forms& forms, int form, std::size_t n) {
   const std::vector<Term>& terms = forms[form].terms;
   return std::all_of(terms.begin(), terms.end(), [&](const Term& term) {
-    bool linear = false;  // there is one factor that varies
+    bool linear = false;  // whether there is exactly one factor that varies
     for (const Factor& f : term.factors) {
       if (forms.is_constant(f)) continue;
       const Base& base = forms.base_at(f.base);
@@ -151,7 +152,7 @@ bool is_linear(const Forms& forms, int form, std::size_t n) {
   });
 }
 
-/// The scalar s of derivatives s x_i, if all of them are one term with the same s.
+/// Whether the derivatives have the form s x_i, each a single term with the same scalar s.
 bool is_one_scalar(Forms& forms, const std::vector<int>& derivatives, std::size_t first) {
   std::optional<int> scalar;
   for (std::size_t i = 0; i < derivatives.size(); ++i) {
@@ -229,7 +230,7 @@ Model::Model(const FormulaTexts& texts) {
     const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
       roots.push_back(read_into(graph, texts.constraints[k], symbols_, &needed));
-    } catch (const Error&) {  // parsed again to report the names that are allowed here
+    } catch (const Error&) {  // it is parsed again below, where the message lists the allowed names
       FormulaSymbols own = symbols_;
       own.what = "coordinates and parameters";
       own.names.erase(own.names.begin() + static_cast<std::ptrdiff_t>(n),
@@ -297,7 +298,7 @@ Model::Model(const FormulaTexts& texts) {
       force = d.code(of_force);
       structure_.quadratic_kinetic = true;
       for (std::size_t i = 0; i < n && structure_.quadratic_kinetic; ++i) {
-        bool any = false;  // a row of zeros makes M singular
+        bool any = false;  // stays false for a row of zeros, which makes M singular
         for (std::size_t j = 0; j < n; ++j) any = any || !d.forms.is_zero(d.derivative(by_p[i], n + j));
         structure_.quadratic_kinetic = any && is_linear(d.forms, by_p[i], n);
       }

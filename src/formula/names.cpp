@@ -20,7 +20,7 @@ void check_word(const std::string& key, const std::string& word) {
   }
 }
 
-/// A parameter "1/3", "[1, 2]".
+/// Reads the value of a parameter, such as "1/3" or "[1, 2]".
 ProblemNames::Parameter parameter_of(const std::string& name, const std::string& text) {
   const std::string key = std::string(FormulaKeys::parameters) + "." + name;
   check_word(key, name);
@@ -40,7 +40,7 @@ ProblemNames::Parameter parameter_of(const std::string& name, const std::string&
   return p;
 }
 
-/// x, or x[n] written out.
+/// Returns the names that a text such as "x" or "x[n]" declares.
 std::vector<std::string> written_out(const std::string& key, const std::string& text, const FormulaSymbols& parameters,
                                      std::set<std::string>& whole) {
   const std::size_t opened = text.find('[');
@@ -73,12 +73,12 @@ std::vector<std::string> written_out(const std::string& key, const std::string& 
   return all;
 }
 
-/// p of q, p1 of q1, p_x of x: as for every problem.
+/// Returns the default name of a momentum: p for q, p1 for q1, p_x for x.
 std::string momentum_of(const std::string& coordinate) {
   return coordinate.starts_with('q') ? "p" + coordinate.substr(1) : "p_" + coordinate;
 }
 
-/// The word of x[3].
+/// Returns the name without its index: x for x[3].
 std::string word_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
 }  // namespace

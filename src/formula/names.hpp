@@ -1,4 +1,4 @@
-// The names of a typed problem: x[n] written out, momenta by default, clashes.
+// The names of a typed problem: expands x[n], chooses default names of momenta, and finds duplicates.
 #pragma once
 
 #include <set>
@@ -15,17 +15,17 @@ struct ProblemNames {
   std::vector<std::string> momenta;
   struct Parameter {
     std::string name;
-    std::size_t length;          // of a list; 0: one number
-    std::vector<double> values;  // NaN: not known
+    std::size_t length;          // the length of a list; 0: a number
+    std::vector<double> values;  // NaN if unknown
   };
   std::vector<Parameter> parameters;
-  /// Parameters whose values were needed for sizes.
+  /// The parameters whose values determine sizes.
   std::set<std::string> whole;
 };
 
 /// @throws FormulaError
 ProblemNames names_of(const FormulaTexts& texts);
-/// Coordinates, momenta, t, parameters; with the values that are known.
+/// Returns coordinates, momenta, t and parameters, with the known values.
 FormulaSymbols symbols_of(const ProblemNames& names);
 
 }  // namespace hamflow::formula

@@ -29,7 +29,7 @@ class ProgramWriter {
     program_.operations.push_back({instruction, a, b});
     return operand(Operand::Kind::result, program_.operations.size() - 1);
   }
-  /// The products of whole_power.
+  /// Emits the same products as Emission::whole_power.
   Operand whole(Operand x, int n) {
     if (n == 1) return x;
     const Operand half = whole(x, n / 2);

@@ -1,4 +1,4 @@
-// Fractions of whole numbers: coefficients and exponents of expressions, as long as they are short.
+// Fractions of whole numbers below 2^53: coefficients and exponents of expressions.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace hamflow::formula {
 
-/// Wide enough for the products of two numbers up to 2^53 and their sum.
+/// Holds sums of products of two numbers up to 2^53.
 __extension__ using Wide = __int128;
 
 struct Rational {
   std::int64_t up = 0;
-  std::int64_t down = 1;  // positive, without common divisor
+  std::int64_t down = 1;  // positive, without a common divisor with `up`
 
   friend bool operator==(const Rational&, const Rational&) = default;
   bool is_zero() const { return up == 0; }
@@ -23,7 +23,7 @@ struct Rational {
   std::string key() const { return std::to_string(up) + "/" + std::to_string(down); }
 };
 
-/// The fraction in lowest terms; empty beyond 2^53, from where on a double is no longer every whole number.
+/// Returns the fraction in lowest terms; nullopt beyond 2^53, above which a double cannot represent every whole number.
 inline std::optional<Rational> fraction(Wide up, Wide down) {
   constexpr Wide most = std::int64_t{1} << 53;
   if (down == 0) return std::nullopt;
@@ -48,7 +48,7 @@ inline std::optional<Rational> sum(const Rational& a, const Rational& b) {
 inline std::optional<Rational> product(const Rational& a, const Rational& b) {
   return fraction(static_cast<Wide>(a.up) * b.up, static_cast<Wide>(a.down) * b.down);
 }
-/// c^n for a whole n.
+/// Returns c^n for a whole number n.
 inline std::optional<Rational> power(const Rational& c, std::int64_t n) {
   if (n > 64 || n < -64 || (n < 0 && c.is_zero())) return std::nullopt;
   Rational all{1, 1};

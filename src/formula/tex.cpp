@@ -23,15 +23,15 @@ bool is_among(const auto& names, std::string_view name) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Reads from left to right; a quotient takes the operand before it and the one behind it.
+/// Translates a formula from left to right. A quotient becomes a fraction of the operands before and after it.
 class TexWriter {
  public:
   explicit TexWriter(std::string_view text) : text_(text) {}
 
-  /// Up to one of the closing characters, or the end.
+  /// Translates up to one of the closing characters, or to the end.
   std::string sequence(std::string_view closing) {
     std::string all;
-    bool behind_operand = false;  // the next one is multiplied with it
+    bool behind_operand = false;  // whether the next operand is a factor
     while (at_ < text_.size() && closing.find(text_[at_]) == std::string_view::npos) {
       const char c = text_[at_];
       if (begins_operand(c)) {
@@ -56,14 +56,14 @@ class TexWriter {
  private:
   struct Operand {
     std::string tex;
-    std::string inside{};  // of one in parentheses, which a fraction does not need
+    std::string inside{};  // an operand in parentheses, without them; a fraction does not need them
   };
 
   bool begins_operand(char c) const {
     if (c == '|') return text_.find('|', at_ + 1) != std::string_view::npos && !in_bars_;
     return is_letter(c) || is_digit(c) || c == '(' || c == '[' || c == '{' || c == '.';
   }
-  /// A character that LaTeX does not read as a command.
+  /// Escapes a character that has a meaning in LaTeX.
   static std::string plain(char c) {
     constexpr std::string_view special = "#$%&_{}";
     if (special.find(c) != std::string_view::npos) return std::string("\\") + c;
@@ -142,7 +142,8 @@ class TexWriter {
     return digits + "\\cdot 10^{" + std::string(text_.substr(exponent, end - exponent)) + "}";
   }
 
-  /// A name, with what is behind its first underscore or its last letter as index; or a function with its argument.
+  /// Translates a name, or a function with its argument. In a name, the part after the first underscore or after the
+  /// last letter becomes an index.
   Operand named() {
     const std::size_t first = at_;
     while (at_ < text_.size() && is_letter(text_[at_])) ++at_;

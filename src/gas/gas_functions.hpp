@@ -28,7 +28,7 @@ using Gas = GasSystem<R, PairLaws<R>>;
 /// @param size the number of coordinates of all particles
 template <class R>
 Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t size);
-/// The same functions behind virtual calls. Instantiated for all number types.
+/// Returns the functions of the gas behind virtual calls. Instantiated for all number types.
 template <class R>
 ErasedFunctions<R> gas_functions(const GasShape& shape, const Parameters<R>& given, std::size_t size);
 

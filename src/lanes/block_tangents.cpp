@@ -26,7 +26,7 @@ void BlockTangents::carry(std::span<LaneTangents> jobs) {
   std::vector<LaneTangents*> by_steps;
   for (LaneTangents& job : jobs) by_steps.push_back(&job);
   std::sort(by_steps.begin(), by_steps.end(), [](auto* a, auto* b) { return a->steps < b->steps; });
-  std::vector<const LaneTangents*> of_lane(lanes, &jobs.front());  // lanes without vectors use any
+  std::vector<const LaneTangents*> of_lane(lanes, &jobs.front());  // lanes without vectors take any job
   for (const LaneTangents& job : jobs) of_lane[job.lane] = &job;
   for (std::size_t lane = 0; lane < lanes; ++lane) write(*of_lane[lane], lane);
   const auto flags = std::make_unique<bool[]>(lanes);

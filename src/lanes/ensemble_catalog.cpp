@@ -1,4 +1,4 @@
-// From a request to a block of lanes.
+// Makes blocks of lanes from requests.
 #include "iterated_block.hpp"
 #include "methods/recipes.hpp"
 #include "methods/step_control.hpp"
@@ -17,7 +17,7 @@ LaneSet widest_lanes() {
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
   const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
   if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;
-  if (step_control_of(request.method).reversible) return nullptr;  // lanes share the time of a step
+  if (step_control_of(request.method).reversible) return nullptr;  // all lanes have the same step size
   const std::shared_ptr<const ProblemEntry> problem = find_problem(request);
   const bool is_iterated = visit_method(request.method, []<class M>(const M&) { return std::is_same_v<M, Averages>; });
   return is_iterated ? make_iterated_block(problem, request, lanes) : make_recorded_block(problem, request, lanes);

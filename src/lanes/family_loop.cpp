@@ -47,7 +47,7 @@ bool FamilyLoop::load(const Steps& steps, const Make& make) {
   return true;
 }
 
-/// A loop serves every block whose members differ in the same constants, or in fewer.
+/// Whether the loop can be used for a block: its members differ in the same constants, or in fewer.
 bool FamilyLoop::serves(const Program& program, const std::vector<bool>& differ) const {
   for (std::size_t k = 0; k < differ.size(); ++k) {
     if (!differs_[k] && (differ[k] || !same_bits(first_->program.constants[k], program.constants[k]))) return false;

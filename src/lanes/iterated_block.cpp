@@ -12,8 +12,8 @@ namespace hamflow {
 
 namespace {
 
-/// Members with the same number of points run together. A member that changes its number of points, or loses its guess,
-/// runs alone for the rest of a stretch of steps and then joins again.
+/// Runs members with the same number of quadrature points together. A member that changes its number of points, or has
+/// no initial guess, runs alone for the rest of a stretch of steps, and then joins the others again.
 class IteratedBlock final : public EnsembleBlock {
  public:
   IteratedBlock(std::shared_ptr<const ProblemEntry> problem, Request request, LaneSet lanes)
@@ -21,7 +21,7 @@ class IteratedBlock final : public EnsembleBlock {
     request_.record = false;  // members run in lanes
   }
 
-  /// Several packs, or those of members with other points would be half empty.
+  /// The number of lanes of several packs, because members with different numbers of points need different packs.
   std::size_t lanes() const override { return 8 * (set_ == LaneSet::avx512 ? 8 : 4); }
 
   bool load(const ParameterShape& shape, std::span<const MemberStart> members) override {
@@ -116,16 +116,16 @@ class IteratedBlock final : public EnsembleBlock {
 
  private:
   struct Member {
-    std::unique_ptr<Simulation> simulation;  // at the start, or where it was last asked for
-    IteratedMember* iterated = nullptr;      // the same
-    std::size_t parameters = 0;              // the number of its parameters
-    std::vector<double> frame;               // where the member is
-    int points = 0;                          // of its next step
+    std::unique_ptr<Simulation> simulation;  // at the start, or at a later step where it was needed
+    IteratedMember* iterated = nullptr;      // the interface of `simulation`
+    std::size_t parameters = 0;              // the number of its parameter set
+    std::vector<double> frame;               // the present state of the member
+    int points = 0;                          // the number of points of its next step
     Effort effort;
-    bool in_lane = false;    // else the simulation is where the member is
-    bool has_guess = false;  // the next step begins with that of the last one
+    bool in_lane = false;    // whether `frame` has the present state; else `simulation` has it
+    bool has_guess = false;  // whether the last step left an initial guess for the next one
     bool lost = false;
-    std::unique_ptr<Simulation> before;  // a step that the member took alone
+    std::unique_ptr<Simulation> before;  // the state before the last step that the member took alone
     std::vector<double> frame_before;
     Effort effort_before;
   };
@@ -141,13 +141,13 @@ class IteratedBlock final : public EnsembleBlock {
     }
     if (!is_recorded_) {
       const auto copy = simulation.clone();
-      if (copy->advance(2) != Outcome::done) return true;  // no more than a member that is lost
+      if (copy->advance(2) != Outcome::done) return true;  // only this member fails
       is_recorded_ = dynamic_cast<const IteratedMember&>(*copy).recorded_iteration().has_value();
     }
     return *is_recorded_;
   }
 
-  /// At most a stretch.
+  /// Takes at most one stretch of steps.
   void take(std::int64_t steps) {
     std::map<int, std::vector<Member*>> together;
     std::vector<Member*> alone;
@@ -197,7 +197,7 @@ class IteratedBlock final : public EnsembleBlock {
     }
   }
 
-  /// From the simulation.
+  /// Reads the state of a member from its simulation.
   void read(Member& member) {
     member.has_guess = member.iterated->read(member.frame);
     member.points = member.iterated->points();
@@ -210,7 +210,7 @@ class IteratedBlock final : public EnsembleBlock {
     member.in_lane = family.is_worth_it(steps) && family.take_in(member.parameters, *member.iterated);
   }
 
-  /// The simulation, which is behind, to where a frame is.
+  /// Advances the simulation of a member to the state of a frame.
   void bring(Member& member, std::span<const double> frame, std::int64_t taken, const Effort& effort) {
     const std::int64_t steps = taken - member.simulation->step();
     if (steps != 0) member.iterated->take(frame, steps, effort);
@@ -220,14 +220,14 @@ class IteratedBlock final : public EnsembleBlock {
   Request request_;
   LaneSet set_;
   std::vector<Member> members_;
-  std::map<int, IteratedFamily> families_;  // by points
+  std::map<int, IteratedFamily> families_;  // by the number of points
   std::vector<PackLane> pack_;
   IteratedPack runner_;
-  std::vector<double> numbers_;  // of the state, in all lanes
+  std::vector<double> numbers_;  // the numbers of the state in all lanes
   std::int64_t taken_ = 0;
   std::int64_t in_lanes_ = 0;
   bool keeps_before_ = false;
-  std::optional<bool> is_recorded_;  // a step of the members
+  std::optional<bool> is_recorded_;  // whether the step of the members can be recorded, if this is known
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A block of lanes made of simulations whose steps are solved by iteration.
+// A block of lanes for simulations whose steps are solved by iteration.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// Null if such a request cannot run in lanes. load() returns false if the members cannot.
+/// Makes a block. Returns null if the request cannot run in lanes; load() returns false if the members cannot.
 std::unique_ptr<EnsembleBlock> make_iterated_block(const std::shared_ptr<const ProblemEntry>& problem,
                                                    const Request& request, LaneSet lanes);
 

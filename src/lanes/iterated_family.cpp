@@ -15,7 +15,7 @@ bool IteratedFamily::take_in(std::size_t set, const IteratedMember& member) {
   return false;
 }
 
-/// All members that were taken in.
+/// Compiles the loops for all parameter sets that were added.
 bool IteratedFamily::load() {
   std::vector<std::size_t> sets;
   for (const auto& [set, recorded] : recorded_) sets.push_back(set);

@@ -1,5 +1,5 @@
-// The programs of iterated steps with one number of points, as loops over lanes; the programs of members differ only in
-// constants.
+// The programs of iterated steps with one number of quadrature points, as loops over lanes. The programs of members
+// differ only in constants.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@ namespace hamflow {
 
 class IteratedFamily {
  public:
-  /// Programs of so many operations are chains enough to fill a processor with one register to a number, and with more
-  /// they no longer fit into its first cache of instructions.
+  /// Loops use one register per value. These programs have enough independent operations to keep a processor busy, and
+  /// with more registers they would not fit into the first-level instruction cache.
   explicit IteratedFamily(LaneSet lanes) : correct_(lanes, 1), finish_(lanes, 1) {}
 
   /// Whether enough steps are requested to be worth recording and compiling.
@@ -23,16 +23,16 @@ class IteratedFamily {
     recorded_.clear();
     refused_.clear();
   }
-  /// Whether members with these parameters can go in lanes.
-  /// @param set the number of the parameters   @param member the first of them   @return false where its step cannot be
-  /// recorded or is another one
+  /// Adds members with a set of parameters.
+  /// @param set the number of the set   @param member the first member with it   @return false if its step cannot be
+  /// recorded, or differs in more than constants
   bool take_in(std::size_t set, const IteratedMember& member);
 
   const RecordedIteration& recorded() const { return *recorded_.begin()->second; }
   const FamilyLoop& correct() const { return correct_; }
   const FamilyLoop& finish() const { return finish_; }
   std::size_t lanes() const { return correct_.lanes(); }
-  /// The constants of members with parameters of these numbers.
+  /// Return the constants of the programs for one parameter set per lane.
   LaneNumbers constants_of_correct(std::span<const std::size_t> sets) const;
   LaneNumbers constants_of_finish(std::span<const std::size_t> sets) const;
 
@@ -43,7 +43,7 @@ class IteratedFamily {
   bool load();
   FamilyLoop::Steps steps(Part part, std::span<const std::size_t> sets) const;
 
-  std::map<std::size_t, std::shared_ptr<const RecordedIteration>> recorded_;  // by the number of parameters
+  std::map<std::size_t, std::shared_ptr<const RecordedIteration>> recorded_;  // by the number of the parameter set
   std::set<std::size_t> refused_;
   FamilyLoop correct_;
   FamilyLoop finish_;

@@ -40,7 +40,7 @@ std::int64_t IteratedPack::run(const IteratedFamily& family, const NewtonOptions
   return taken_;
 }
 
-/// Lanes without a member rest.
+/// Starts the lanes. Those without a member are set to zeros.
 void IteratedPack::start() {
   width_ = family_->lanes();
   std::vector<std::size_t> sets;
@@ -80,7 +80,7 @@ void IteratedPack::take_step() {
   }
 }
 
-/// The ends of the step, of all lanes that stay.
+/// Iterates until the step of every lane has ended or left the lane.
 void IteratedPack::solve() {
   for (std::size_t lane = 0; lane < width_; ++lane) {
     progress_[lane] = {NewtonProgress<double>(convergence_of(options_->iteration)), 0, !is_here(lane)};
@@ -127,7 +127,7 @@ void IteratedPack::judge(std::size_t lane) {
   if (!is_plain) leave(lane, carried_);
 }
 
-/// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
+/// Whether rounding hides the unknowns; see detail::hiding_terms (averages_rows.hpp).
 bool IteratedPack::is_hidden(std::size_t lane) const {
   return hidden_by_rounding(&carried_[at_.unit() * width_ + lane], &carried_[at_.x() * width_ + lane], at_.m, width_);
 }
@@ -152,7 +152,7 @@ void IteratedPack::rest(std::size_t lane) {
   for (std::size_t i = 0; i < at_.m; ++i) number(at_.x() + i, lane) = 0;
 }
 
-/// @param at numbers in which the lane stands at the last step that it has taken
+/// Removes a member from its lane.   @param at the numbers of all lanes, after the last step that this lane completed
 void IteratedPack::leave(std::size_t lane, const LaneNumbers& at) {
   for (std::size_t k = 0; k * width_ < at.size(); ++k) lanes_[lane].frame[k] = at[k * width_ + lane];
   places_[lane] = Place::outside;
@@ -160,7 +160,7 @@ void IteratedPack::leave(std::size_t lane, const LaneNumbers& at) {
   rest(lane);
 }
 
-/// The work of a step that was taken, as ImplicitMethod counts it.
+/// Counts the work of a completed step, as ImplicitMethod does.
 void IteratedPack::count(std::size_t lane) {
   Effort& effort = *lanes_[lane].effort;
   const int solves = progress_[lane].solves;

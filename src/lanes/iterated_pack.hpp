@@ -1,6 +1,6 @@
-// Members that take iterated steps together, one in each lane. A lane whose correction was the last one keeps what it
-// has until all are there. A step that leaves the straight road of the programs, or of the first guess, is for the
-// simulation itself.
+// Members that take iterated steps together, one in each lane. A lane whose iteration has converged saves its result
+// until all others have. The simulation of a member takes every step that the programs or the initial guess do not
+// cover.
 #pragma once
 
 #include <functional>
@@ -14,13 +14,13 @@ namespace hamflow {
 
 /// One member of a pack.
 struct PackLane {
-  std::span<double> frame;  // where it is
+  std::span<double> frame;  // its present state
   Effort* effort;
-  std::size_t parameters = 0;  // the number of its parameters
+  std::size_t parameters = 0;  // the number of its parameter set
 };
 
-/// Lets the member of a lane, which stands where its frame says, take the next step alone. The frame is then behind it.
-/// @param left steps to take, this one included   @return whether the member goes on in the lane
+/// Lets the member of a lane take the next step alone, from the state of its frame, and updates the frame.
+/// @param left number of steps to take, including this one   @return whether the member stays in the lane
 using StepAlone = std::function<bool(std::size_t lane, std::int64_t left)>;
 
 class IteratedPack {
@@ -38,7 +38,7 @@ class IteratedPack {
     bool settled = false;
   };
 
-  enum class Place : char { in_lane, outside, gone };  // outside: for one step
+  enum class Place : char { in_lane, outside, gone };  // outside: only for one step
 
   void start();
   void take_step();
@@ -65,9 +65,9 @@ class IteratedPack {
   LaneNumbers constants_of_correct_;
   LaneNumbers constants_of_finish_;
   LaneNumbers carried_;
-  LaneNumbers before_;  // before the end of the step
-  LaneNumbers ends_;    // of lanes that wait for others: end and increment, then the state
-  LaneNumbers sizes_;   // of the last corrections
+  LaneNumbers before_;  // the numbers before the end of the step
+  LaneNumbers ends_;    // saved results of lanes that wait for others: end and increment, then the state
+  LaneNumbers sizes_;   // the sizes of the last corrections
   LaneNumbers totals_;
   std::vector<LaneProgress> progress_;
   std::vector<Place> places_;

@@ -135,7 +135,7 @@ class RecordedBlock final : public EnsembleBlock {
     };
     const std::optional<Program> first = with(step().program, of_lanes[0]);
     if (!first) return false;
-    // Numbers of the expressions have to be the same in all lanes, and for a loop that is there already.
+    // Constants in the expressions have to be the same in all lanes, and the same as in an existing loop.
     const auto like_first = [&](const Program& other) {
       return other.operations == first->operations && other.outputs == first->outputs &&
              other.constants.size() == first->constants.size() &&
@@ -174,17 +174,17 @@ class RecordedBlock final : public EnsembleBlock {
 
  private:
   struct Member {
-    std::unique_ptr<Simulation> simulation;  // at the first step, or at one that was looked at since
-    std::unique_ptr<Simulation> start;       // before its first step, or before the last one that it took alone
-    RecordedMember* recorded = nullptr;      // the same
+    std::unique_ptr<Simulation> simulation;  // after the first step, or at a later step where it was needed
+    std::unique_ptr<Simulation> start;       // before the first step, or before the last one that it took alone
+    RecordedMember* recorded = nullptr;      // the interface of `simulation`
     std::shared_ptr<const RecordedStep> step;
-    bool has_step_of_last = false;  // parameters and step length are those of the last member
+    bool has_step_of_last = false;  // whether parameters and step size equal those of the previous member
     bool lost = false;
   };
 
   const RecordedStep& step() const { return *members_[0].step; }
 
-  /// After the first step, which leaves what a method keeps for the next one.
+  /// Reads the numbers of a lane after the first step, which computes the data that a method keeps for the next one.
   void read(std::size_t lane) {
     Member& member = members_[std::min(lane, members_.size() - 1)];
     if (!member.lost && !member.recorded->read_values(*member.step, values_)) member.lost = true;
@@ -192,7 +192,7 @@ class RecordedBlock final : public EnsembleBlock {
   }
 
   std::size_t place_of_sum(std::size_t i) const { return step().program.values() + 2 * i; }
-  /// Of a step that the member took alone.
+  /// Adds the values of the expressions after a step that the member took alone.
   void add_to_sums(std::size_t lane) {
     if (summed_.empty() || members_[lane].lost) return;
     Frame frame;
@@ -205,13 +205,13 @@ class RecordedBlock final : public EnsembleBlock {
     }
   }
 
-  /// The member's simulation, which is behind, to where a lane is.
+  /// Advances the simulation of a member to the state of its lane.
   void bring(Member& member, std::size_t lane, LaneNumbers& carried, std::int64_t taken) {
     const std::int64_t steps = taken - member.simulation->step();
     if (steps == 0) return;
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = carried[k * lanes() + lane];
     member.recorded->take_values(*member.step, values_, steps);
-    for (std::size_t k = 0; k < step().words; ++k) word(carried, k, lane) = 0;  // it has them now
+    for (std::size_t k = 0; k < step().words; ++k) word(carried, k, lane) = 0;  // the simulation has counted them
   }
   double& word(LaneNumbers& carried, std::size_t k, std::size_t lane) const {
     return carried[(step().first_word() + k) * lanes() + lane];
@@ -225,7 +225,7 @@ class RecordedBlock final : public EnsembleBlock {
     settled_ = taken_;
   }
 
-  /// The next step of a lane may hit a wall and was not taken: the member takes it alone and returns its numbers.
+  /// The next step of a lane may hit a wall and was not taken. The member takes it alone and writes its numbers back.
   void take_alone() {
     double* const stop = carried_.data() + step().stop() * lanes();
     for (std::size_t lane = 0; lane < lanes(); ++lane) {
@@ -269,15 +269,15 @@ class RecordedBlock final : public EnsembleBlock {
   FamilyLoop loop_;
   std::vector<Member> members_;
   LaneNumbers carried_;
-  LaneNumbers before_;  // the last step
+  LaneNumbers before_;  // the numbers before the last step
   std::unique_ptr<bool[]> failed_;
-  std::vector<double> values_;  // of one lane
+  std::vector<double> values_;  // the values of one lane
   std::int64_t taken_ = 0;
-  std::int64_t settled_ = 0;  // behind which step words were 0 in all lanes
+  std::int64_t settled_ = 0;  // the last step after which all words were 0
   bool keeps_start_ = false;
   FamilyLoop summing_loop_{LaneSet::none};
-  std::optional<Program> last_summing_;                   // of that loop
-  std::vector<std::span<const NamedExpression>> summed_;  // in each lane; empty: nothing is
+  std::optional<Program> last_summing_;                   // the program of that loop
+  std::vector<std::span<const NamedExpression>> summed_;  // the expressions summed in each lane; may be empty
   std::map<std::size_t, BlockTangents> tangents_;         // by the number of vectors
 };
 

@@ -1,4 +1,4 @@
-// A block of lanes made of any simulations whose steps are recorded: nothing is compiled for a problem.
+// A block of lanes for any simulations whose steps are recorded. Nothing is compiled for a particular problem.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// Null if the steps of such a request are not recorded.
+/// Makes a block. Returns null if the steps of the request are not recorded.
 std::unique_ptr<EnsembleBlock> make_recorded_block(const std::shared_ptr<const ProblemEntry>& problem,
                                                    const Request& request, LaneSet lanes);
 

@@ -1,4 +1,4 @@
-// The meaning of instructions in plain C++, for the interpreter and for constants that are folded at compile time.
+// The meaning of instructions in plain C++. The interpreter uses it, and simplify.cpp uses it to fold constants.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace hamflow::native {
 
-/// Whether it is a function of the system's library.
+/// Whether the instruction calls a function of the C library.
 constexpr bool is_call(Instruction instruction) {
   return is_listed_function(instruction) || instruction == Instruction::atan2 || instruction == Instruction::power ||
          instruction == Instruction::sine_of_both || instruction == Instruction::cosine_of_both;
@@ -28,18 +28,18 @@ constexpr int arity(Instruction instruction) {
 using FunctionOfOne = double (*)(double);
 using FunctionOfTwo = double (*)(double, double);
 
-/// The library's function of one number; null for any other instruction.
+/// Returns the function of the C library with one argument; null for any other instruction.
 FunctionOfOne function_of_one(Instruction instruction);
-/// The library's function of two numbers; null for any other instruction.
+/// Returns the function of the C library with two arguments; null for any other instruction.
 FunctionOfTwo function_of_two(Instruction instruction);
 
-/// Sine and cosine together, which costs little more than one of them and gives the same bits.
+/// Sine and cosine of one number. Computing both costs little more than one of them, and gives the same bits.
 struct SineAndCosine {
-  double sine, cosine;  // as a function's result in the first two registers of a vector unit
+  double sine, cosine;  // as the result of a function they are in the first two vector registers
 };
 inline SineAndCosine sine_and_cosine(double x) { return {std::sin(x), std::cos(x)}; }
 
-/// @param b, c ignored where there is no such operand
+/// Applies an instruction.   @param b, c ignored if the instruction has fewer operands
 inline double applied(Instruction instruction, double a, double b, double c = 0) {
   switch (instruction) {
     case Instruction::larger:
@@ -51,7 +51,7 @@ inline double applied(Instruction instruction, double a, double b, double c = 0)
     case Instruction::cosine_of_both:
       return std::cos(a);
     case Instruction::of_lane:
-      return a;  // the only one
+      return a;  // a single number is the only lane
     default:
       return hamflow::applied(instruction, a, b);
   }

@@ -1,4 +1,4 @@
-// Interprets a program operation by operation. The numbers of a step are in one array: carried values, constants,
+// Interprets a program operation by operation. One array contains the numbers of a step: carried values, constants,
 // results.
 #include <algorithm>
 
@@ -22,7 +22,7 @@ class Interpreter final : public StepLoop {
         case Operand::Kind::none:
           break;
       }
-      return 0;  // read and ignored; a step that computes anything has a number there
+      return 0;  // a missing operand reads the first number and ignores it
     };
     for (const auto& operation : program.operations)
       lines_.push_back({operation.instruction, place(operation.a), place(operation.b), place(operation.c)});
@@ -44,7 +44,7 @@ class Interpreter final : public StepLoop {
       for (const Check& check : checks_) {
         if (!native::holds(check.kind, x[check.a], x[check.b])) return -1;
       }
-      for (std::size_t k = 0; k < values_; ++k) next[k] = x[outputs_[k]];  // outputs may exchange what is carried
+      for (std::size_t k = 0; k < values_; ++k) next[k] = x[outputs_[k]];  // a copy, because outputs may permute values
       std::copy_n(next, values_, x.data());
       for (const std::uint32_t k : ends_at_) ended = ended || x[k] != 0;
     }

@@ -1,5 +1,5 @@
-// The lines of a placed program in vector instructions of AVX2 or AVX-512. A place is one register of numbers; check c
-// is one of the register c mod registers of its numbers.
+// Assembles the lines of a placed program as vector instructions of AVX2 or AVX-512. A place holds one vector register
+// of numbers. Check c belongs to the register c mod registers of its value.
 #include <stdexcept>
 
 #include "functions.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace asmjit;  // NOLINT
 
-// Functions of the library, lane by lane.
+// Functions of the C library are called lane by lane.
 template <std::size_t width>
 void call_of_one(FunctionOfOne f, double* y, const double* a) {
   for (std::size_t i = 0; i < width; ++i) y[i] = f(a[i]);
@@ -20,7 +20,7 @@ template <std::size_t width>
 void call_of_two(FunctionOfTwo f, double* y, const double* a, const double* b) {
   for (std::size_t i = 0; i < width; ++i) y[i] = f(a[i], b[i]);
 }
-/// The sine into y, the cosine into z.
+/// Writes the sine to y and the cosine to z.
 template <std::size_t width>
 void call_of_both(FunctionOfOne, double* y, const double* a, double* z) {
   for (std::size_t i = 0; i < width; ++i) {
@@ -35,7 +35,8 @@ template <class Register>
 class LaneAssembler final : public LoopAssembler {
   static constexpr bool wide = std::is_same_v<Register, x86::Zmm>;
   static constexpr std::size_t width = wide ? 8 : 4, bytes = 8 * width;
-  static constexpr std::size_t arguments = 3 * bytes;  // of a call, at rsp: result, operand, second operand or result
+  // Arguments of a call, at rsp: the result, the operand, and the second operand or second result.
+  static constexpr std::size_t arguments = 3 * bytes;
 
  public:
   LaneAssembler(const PlacedProgram& program, const std::vector<double>& constants, std::size_t uniform,
@@ -64,7 +65,7 @@ class LaneAssembler final : public LoopAssembler {
         throw std::logic_error("machine code: a place that is not in memory");
     }
   }
-  /// A number of the table in every lane: AVX-512 reads it once for all, for AVX2 it stands there as often.
+  /// A number of the table for all lanes. AVX-512 broadcasts it; for AVX2 the table contains it once for each lane.
   x86::Mem in_table(std::size_t index) const {
     if constexpr (wide) return x86::ptr(table_, static_cast<std::int32_t>(8 * index))._1to8();
     return x86::ptr(table_, offset(index));
@@ -91,9 +92,9 @@ class LaneAssembler final : public LoopAssembler {
     }
   }
 
-  /// The mask stays for the lines that choose by the same number.
+  /// Emits a selection. Consecutive lines that choose by the same number reuse the mask.
   void choose(const Line& line) {
-    const Register to = reg(line.to), mask = Register(15);  // of AVX2 alone, which places nothing there
+    const Register to = reg(line.to), mask = Register(15);  // only AVX2 uses register 15 as a mask
     if (chosen_by_ != line.a) {
       constexpr int greater = 0x1e;  // quiet
       if constexpr (wide) {
@@ -120,7 +121,7 @@ class LaneAssembler final : public LoopAssembler {
     const Register to = reg(line.to), a = reg(line.a);
     switch (line.instruction) {
       case Instruction::of_lane: {
-        const std::size_t value = line.a.index / registers_ * registers_;  // its first register
+        const std::size_t value = line.a.index / registers_ * registers_;  // the first register of the value
         const auto lane = static_cast<std::int32_t>(constants_[line.b.index]);
         a_.vbroadcastsd(to, x86::qword_ptr(x86::rbx, offset(value) + 8 * lane));
         return;
@@ -133,7 +134,7 @@ class LaneAssembler final : public LoopAssembler {
         return with(line.b, [&](const auto& b) { a_.vmulpd(to, a, b); });
       case Instruction::divide:
         return with(line.b, [&](const auto& b) { a_.vdivpd(to, a, b); });
-      case Instruction::larger:  // the second where they are equal or one is NaN
+      case Instruction::larger:  // gives the second operand if they are equal or one is NaN
         return with(line.b, [&](const auto& b) { a_.vmaxpd(to, a, b); });
       case Instruction::negate:
         a_.vxorpd(to, a, in_table(0));
@@ -168,8 +169,8 @@ class LaneAssembler final : public LoopAssembler {
     if (both) gather(1, offset(2));
   }
 
-  /// A register from the numbers at rsp + `from`, one at a time: a whole register would wait until all stores have
-  /// left the queue. Registers 2 to 4 are free behind a call.
+  /// Loads a register from the numbers at rsp + `from`, one at a time. A load of the whole register could not be
+  /// forwarded from the narrower stores, and would wait for all of them. Registers 2 to 4 are free after a call.
   void gather(std::uint32_t to, std::int32_t from) {
     const std::uint32_t parts[] = {to, 2, 3, 4};
     const auto number = [&](std::size_t i) {
@@ -187,15 +188,15 @@ class LaneAssembler final : public LoopAssembler {
     }
   }
 
-  /// What is compiled for older processors is slow while the upper halves of registers are in use.
+  /// Clears the upper halves of registers, because SSE code of the caller is slow while they are in use.
   void leave_lanes() override { a_.vzeroupper(); }
 
   void check(const Line& line) override {
     using Check = Program::Check::Kind;
     enum Predicate { equal = 0x00, unordered = 0x03, unequal = 0x04, less = 0x11, not_less = 0x15 };  // quiet
     const Register a = reg(line.a), spare = reg(line.to);
-    switch (line.check) {  // the lanes in which it does not hold
-      case Check::finite:  // x - x is NaN where x is not finite
+    switch (line.check) {  // computes the lanes in which the check fails
+      case Check::finite:  // x - x is NaN if x is not finite
         a_.vsubpd(spare, a, a);
         return fail(line, spare, spare, unordered);
       case Check::equal:
@@ -221,7 +222,7 @@ class LaneAssembler final : public LoopAssembler {
   }
 
   void leave_unless_zero(const Place& place, const Label& after) override {
-    constexpr int unequal = 0x04;          // or not ordered
+    constexpr int unequal = 0x04;          // also true for NaN
     if (place.kind != Place::Kind::reg) {  // no register is free
       for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(width); ++lane) {
         const x86::Mem number = x86::qword_ptr(x86::rbx, offset(place.index) + 8 * lane);
@@ -242,7 +243,7 @@ class LaneAssembler final : public LoopAssembler {
     a_.jnz(after);
   }
 
-  static constexpr std::uint32_t table_head = 3;  // numbers of the table before the constants
+  static constexpr std::uint32_t table_head = 3;  // entries of the table before the constants
   void embed_table() override {
     constexpr std::uint64_t sign = 1ull << 63;
     std::vector<std::uint64_t> words;
@@ -256,7 +257,7 @@ class LaneAssembler final : public LoopAssembler {
 
   const std::vector<double>& constants_;
   std::size_t uniform_, registers_;
-  Place chosen_by_{};  // of whose sign the mask is
+  Place chosen_by_{};  // the number that the mask tests
 };
 
 }  // namespace

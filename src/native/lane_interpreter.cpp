@@ -6,7 +6,7 @@
 namespace hamflow::native {
 namespace {
 
-constexpr std::size_t at_once = 4;  // numbers that the compiler may take at once
+constexpr std::size_t at_once = 4;  // an inner loop of 4, which the compiler can vectorise
 
 template <class F>
 void each(std::size_t lanes, double* __restrict y, const double* a, const double* b, const F& f) {

@@ -8,8 +8,7 @@ namespace {
 
 using Kind = Operand::Kind;
 
-/// The program with constants that differ as values that are carried and never change, so that no pass takes them for
-/// numbers that are known.
+/// Turns constants that differ between members into carried values that never change, so that no pass folds them.
 Program with_constants_carried(const Program& program, std::span<const bool> differs) {
   Program result = program;
   std::vector<std::uint32_t> value(differs.size());
@@ -32,7 +31,7 @@ Program with_constants_carried(const Program& program, std::span<const bool> dif
 LaneProgram lane_program(const Program& program, std::span<const bool> differs) {
   const Program all = simplified(with_constants_carried(program, differs));
   const std::size_t values = program.values(), size = all.operations.size();
-  std::vector<char> is_fixed(size);  // known before the first step
+  std::vector<char> is_fixed(size);  // whether a result depends only on constants
   const auto fixed = [&](const Operand& operand) {
     return operand.kind == Kind::carried ? operand.index >= values
                                          : operand.kind != Kind::result || is_fixed[operand.index];
@@ -48,7 +47,7 @@ LaneProgram lane_program(const Program& program, std::span<const bool> differs) 
   result.before.constants = all.constants;
   for (std::uint32_t j = 0; j < result.given; ++j) result.before.outputs.push_back({Kind::carried, j});
 
-  std::vector<Operand> in_before(size), in_step(size);  // of fixed results once they are wanted there
+  std::vector<Operand> in_before(size), in_step(size);  // operands for fixed results, set when they are first needed
   const auto before = [&](Operand operand) {
     if (operand.kind == Kind::result) return in_before[operand.index];
     if (operand.kind == Kind::carried) operand.index -= static_cast<std::uint32_t>(values);
@@ -59,7 +58,7 @@ LaneProgram lane_program(const Program& program, std::span<const bool> differs) 
       return {Kind::constant, static_cast<std::uint32_t>(result.uniform + operand.index - values)};
     if (operand.kind != Kind::result) return operand;
     Operand& place = in_step[operand.index];
-    if (place.kind == Kind::none) {  // fixed, and wanted for the first time
+    if (place.kind == Kind::none) {  // a fixed result that is needed for the first time
       place = {Kind::constant, static_cast<std::uint32_t>(result.step.constants.size())};
       result.step.constants.push_back(0);
       result.before.outputs.push_back(in_before[operand.index]);
@@ -86,7 +85,7 @@ Program interleaved(const LaneProgram& program, std::size_t registers, std::size
   const auto count = static_cast<std::uint32_t>(registers), uniform = static_cast<std::uint32_t>(program.uniform);
   const Program& step = program.step;
   const std::size_t size = step.operations.size();
-  std::vector<std::uint32_t> place(size * registers);  // of operation i of register r at i registers + r
+  std::vector<std::uint32_t> place(size * registers);  // operation i of register r is at index i registers + r
   std::uint32_t next = 0;
   for (std::size_t begin = 0; begin < size; begin += chunk) {
     for (std::size_t r = 0; r < registers; ++r) {

@@ -1,4 +1,5 @@
-// A program for lanes, in parts: what is done once, what is done in every step, several registers to a number.
+// Programs for lanes. A program is split into a part that runs once and a part that runs in every step, and each value
+// can take several registers.
 #pragma once
 
 #include "machine_code.hpp"
@@ -7,31 +8,31 @@
 namespace hamflow::native {
 
 struct LaneProgram {
-  Program step;  // simplified; its constants from `uniform` on differ from lane to lane
+  Program step;  // simplified; its constants from `uniform` on differ between lanes
   std::size_t uniform = 0;
-  /// What follows from constants alone is computed once: one step of `before`, which carries all constants that differ,
-  /// the first `given` of them as the caller gives them.
+  /// Computes results that depend only on constants. One step of `before` runs once; it carries all constants that
+  /// differ, and the caller sets the first `given` of them.
   Program before;
   std::size_t given = 0;
 };
 
-/// @param differs of each constant whether members have their own
+/// @param differs for each constant, whether it differs between members
 LaneProgram lane_program(const Program& program, std::span<const bool> differs);
 
-/// The step for numbers of `registers` registers: value k becomes the values k registers .. k registers + registers -
-/// 1, and so do checks and the constants that differ. `chunk` operations of one register follow one another before
-/// those of the next: few registers then live at a time, and the processor sees far enough to work on all.
+/// Replicates a step for values of `registers` registers. Value k becomes the values k registers .. k registers +
+/// registers - 1, and likewise checks and constants that differ. `chunk` operations of one register are followed by
+/// those of the next. Then few values are live at a time, and the processor can still overlap the registers.
 Program interleaved(const LaneProgram& program, std::size_t registers, std::size_t chunk);
 
-/// Registers of this processor for lanes; 0 where it does not have their instructions.
+/// The number of vector registers of this processor for lanes; 0 if it does not have the instructions.
 unsigned lane_registers(LaneSet lanes);
 
-/// As `assembled`, for lanes; constants from `uniform` on are read from the array `varying`.
+/// As assembled(), for lanes. Constants from `uniform` on are read from the array `varying`.
 std::unique_ptr<const Function> assembled_lanes(const PlacedProgram& program, const std::vector<double>& constants,
                                                 std::size_t uniform, std::size_t registers, LaneSet lanes);
 
-/// Repeats a program on arrays, operation by operation; constants from `uniform` on are read from `varying`.
-/// @param lanes how many numbers each is; a multiple of 4   @return how many steps were taken
+/// Interprets a program on arrays, operation by operation. Constants from `uniform` on are read from `varying`.
+/// @param lanes the length of each array, a multiple of 4   @return the number of steps taken
 std::int64_t interpret_lanes(const Program& program, std::size_t uniform, std::size_t lanes, double* carried,
                              const double* varying, std::int64_t steps, bool* failed);
 

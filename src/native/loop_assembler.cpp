@@ -48,7 +48,7 @@ void LoopAssembler::enter() {
 
 void LoopAssembler::exit() {
   leave_lanes();
-  a_.lea(x86::rsp, x86::ptr(x86::rbp, -32));  // the four below rbp
+  a_.lea(x86::rsp, x86::ptr(x86::rbp, -32));  // the four registers pushed after rbp
   for (const x86::Gp& r : {x86::r14, x86::r13, x86::r12, x86::rbx, x86::rbp}) a_.pop(r);
   a_.ret();
 }

@@ -1,6 +1,6 @@
-// The loop around the steps of a placed program, on x86-64: what scalars and lanes share.
+// The loop around the steps of a placed program on x86-64, for scalars and lanes.
 //
-// rbx: the array of what is carried; r12: steps left; r13: constants that differ from lane to lane; r14: failed lanes.
+// rbx: array of carried values; r12: number of steps left; r13: constants that differ between lanes; r14: failed lanes.
 // The frame is aligned to 64 bytes.
 #pragma once
 
@@ -13,28 +13,28 @@ namespace hamflow::native {
 class LoopAssembler {
  public:
   virtual ~LoopAssembler() = default;
-  /// The whole function.
+  /// Assembles the whole function.
   void run();
 
  protected:
-  /// @param frame bytes on the stack that lines use, from rsp on
+  /// @param frame number of bytes on the stack that lines use, from rsp on
   LoopAssembler(const PlacedProgram& program, std::size_t frame, asmjit::CodeHolder& code);
 
   virtual void move(const Line& line) = 0;
   virtual void operation(const Line& line) = 0;
   virtual void call(Instruction instruction) = 0;
   virtual void check(const Line& line) = 0;
-  virtual void leave_lanes() {}  // before the function returns
+  virtual void leave_lanes() {}  // called before the function returns
   virtual void before(const Line& /*next*/) {}
-  /// Goes to `after` where the number is not 0.
+  /// Jumps to `after` if the number is not 0.
   virtual void leave_unless_zero(const Place& place, const asmjit::Label& after) = 0;
   virtual void embed_table() = 0;
 
   void embed(const std::vector<std::uint64_t>& words) { a_.embed(words.data(), 8 * words.size()); }
 
   asmjit::x86::Assembler a_;
-  asmjit::Label table_;   // of constants, behind the code
-  asmjit::Label failed_;  // ends with -1
+  asmjit::Label table_;   // the table of constants, after the code
+  asmjit::Label failed_;  // returns -1
 
  private:
   void enter();
@@ -45,7 +45,8 @@ class LoopAssembler {
   std::size_t frame_;
 };
 
-/// Assembles and maps. @tparam Assembler made of (program, constants..., code)
+/// Assembles a function and copies it to executable memory.
+/// @tparam Assembler constructed from (program, constants..., code)
 template <class Assembler, class... Constants>
 std::unique_ptr<const Function> assembled_by(const PlacedProgram& program, const Constants&... constants) {
   class Errors final : public asmjit::ErrorHandler {

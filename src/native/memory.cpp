@@ -6,7 +6,7 @@
 namespace hamflow::native {
 namespace {
 
-/// Pages are mapped twice, once for writing and once for running.
+/// The allocator maps pages twice, once for writing and once for execution.
 std::shared_ptr<asmjit::JitAllocator> shared_allocator() {
   static const auto allocator = [] {
     asmjit::JitAllocator::CreateParams options;
@@ -27,7 +27,7 @@ class MappedFunction final : public Function {
   std::size_t bytes() const override { return bytes_; }
 
  private:
-  std::shared_ptr<asmjit::JitAllocator> allocator_;  // kept as long as any of its functions, whatever ends first
+  std::shared_ptr<asmjit::JitAllocator> allocator_;  // shared, so that it lives as long as any of its functions
   void* code_;
   std::size_t bytes_;
 };

@@ -1,4 +1,4 @@
-// Executable memory that all functions share.
+// Executable memory, which all functions share.
 #pragma once
 
 #include <asmjit/core.h>
@@ -7,10 +7,10 @@
 
 namespace hamflow::native {
 
-/// Throws std::logic_error on any error: what is assembled here is never at fault by its input.
+/// Throws std::logic_error on an error of asmjit. Such an error is a fault of hamflow, never of the input.
 void demand(asmjit::Error error);
 
-/// The code where it can be run; null where the system refuses that.
+/// Copies code to executable memory. Returns null if the system refuses it.
 std::unique_ptr<const Function> made_executable(asmjit::CodeHolder& code);
 
 }  // namespace hamflow::native

@@ -9,7 +9,7 @@ namespace {
 
 bool is_register(const Place& place) { return place.kind == Place::Kind::reg; }
 
-/// Moves that are still to be done. No move may write where another still has to read.
+/// Moves that have not been emitted. A move may not overwrite a place that another one still has to read.
 class PendingMoves {
  public:
   PendingMoves(std::vector<Line>& lines, std::vector<Move> moves, std::uint32_t scratch,
@@ -31,8 +31,8 @@ class PendingMoves {
         --readers_[key(move.from)];
         emit(move.to, move.from);
       } else {
-        // Only cycles are left, so that the scratch register is free. It can hold a number as long as no move between
-        // two places of memory needs it.
+        // Only cycles are left, so the scratch register is free. It can hold a number unless a move from memory to
+        // memory needs it.
         read_from(any_between_memory() ? new_slot_() : scratch_, moves_.front().from);
       }
     }
@@ -57,7 +57,7 @@ class PendingMoves {
       line(to, scratch_);
     }
   }
-  /// Copies a source elsewhere; the moves that read it read the copy from now on.
+  /// Copies a source, and lets the moves that read it read the copy.
   void read_from(Place copy, Place source) {
     emit(copy, source);
     for (Move& move : moves_) {

@@ -1,4 +1,4 @@
-// Many moves that happen at once, one after the other.
+// Orders simultaneous moves so that they can be done one after the other.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,8 @@ struct Move {
   Place from, to;
 };
 
-/// Appends to `lines` what has the effect of all moves at once; every target stands once. Targets are registers or
-/// homes. @param scratch a register that is no target
-/// @param new_slot a place on the stack that nothing else uses
+/// Appends lines with the effect of all moves at once. Targets are registers or homes, each at most once.
+/// @param scratch a register that is not a target   @param new_slot returns an unused place on the stack
 void append_moves(std::vector<Line>& lines, std::vector<Move> moves, std::uint32_t scratch,
                   const std::function<Place()>& new_slot);
 

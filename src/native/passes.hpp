@@ -1,19 +1,19 @@
-// From program to program, every bit kept: what is known is computed, what is written twice or never used goes.
+// Optimisations of programs that keep every bit: they fold constants, and remove duplicate and unused operations.
 #pragma once
 
 #include "hamflow/detail/numerics/program.hpp"
 
 namespace hamflow::native {
 
-/// The program without what nothing depends on, with operations on constants done, with equal operations as one, with
-/// negations in the sums, products and quotients that they meet. Only NaN's payloads may differ.
+/// Removes unused operations, folds constants, merges equal operations, and moves negations into sums, products and
+/// quotients. Only payloads of NaN may change.
 Program simplified(const Program& program);
 
-/// Where a program has the sine and the cosine of one number, they become one call, where the first of them stands.
+/// Replaces the sine and the cosine of the same number by one call, at the place of the first of them.
 Program with_both(const Program& program);
 
-/// The same operations in an order in which long chains begin early (list scheduling by height, window of `window`
-/// operations). Constants, outputs and checks keep their meaning.
+/// Reorders operations so that long chains begin early: list scheduling by height, in a window of `window` operations.
+/// Constants, outputs and checks keep their meaning.
 Program scheduled(const Program& program, std::size_t window = 64);
 
 }  // namespace hamflow::native

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Place nowhere{};
 constexpr Place reg(std::uint32_t r) { return {Place::Kind::reg, r}; }
-constexpr std::uint64_t only(const Place& place) {  // the set of one register, or none
+constexpr std::uint64_t only(const Place& place) {  // the set with this register; empty if it is not a register
   return place.kind == Place::Kind::reg ? std::uint64_t{1} << place.index : 0;
 }
 constexpr Place home(std::uint32_t k) { return {Place::Kind::home, k}; }
@@ -54,7 +54,7 @@ class Allocator {
       if (is_check) {
         place_check(index);
       } else if (program_.operations[index].instruction == Instruction::cosine_of_both) {
-        pass(program_.operations[index].a, {});  // came with the sine
+        pass(program_.operations[index].a, {});  // the call for the sine has computed it, too
         after_line(program_.operations[index].a, {});
       } else if (is_call(program_.operations[index].instruction)) {
         place_call(program_.operations[index], values_ + index);
@@ -67,14 +67,14 @@ class Allocator {
   }
 
  private:
-  /// Registers for what is carried, the earliest used first. Two stay free for what is computed.
+  /// Chooses registers for carried values, those that are used earliest first. Two registers stay free for results.
   void choose_homes() {
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < values_; ++k) order.push_back(k);
     const auto is_kept = [&](std::uint32_t k) { return program_.outputs[k] == Operand{Operand::Kind::carried, k}; };
     if (once_) std::erase_if(order, is_kept);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
-      if (is_kept(x) != is_kept(y)) return is_kept(y);  // what never changes is as good in memory
+      if (is_kept(x) != is_kept(y)) return is_kept(y);  // values that never change can stay in memory at no cost
       return uses_.next(x) < uses_.next(y);
     });
     const auto most = static_cast<std::uint32_t>(in_register_.size()) - 2;
@@ -102,7 +102,7 @@ class Allocator {
     result_.body.push_back({Line::Kind::move, {}, {}, to, from, {}});
   }
 
-  /// Where a number is stored: in the home of the output that it is, once nobody needs what was carried there, else on
+  /// Chooses where a number is stored: in the home of its output, if the old value there is no longer needed, else on
   /// the stack.
   Place storage_for(std::uint32_t number) {
     if (number < values_) return home(number);
@@ -121,7 +121,7 @@ class Allocator {
     emit_move(memory_[number], reg(registers_[number]));
   }
 
-  /// The register whose number is used last, of those that are not in the set `pinned`.
+  /// Returns the register with the latest next use, among those that are not in the set `pinned`.
   std::uint32_t victim(std::uint64_t pinned) const {
     std::uint32_t best = never;
     for (std::uint32_t r = 0; r < in_register_.size(); ++r) {
@@ -130,14 +130,14 @@ class Allocator {
     }
     return best;
   }
-  /// Of two that are used equally late, the one that is in memory already costs no store.
+  /// Compares next uses. If they are equal, a number that is in memory already comes first, because it needs no store.
   std::pair<std::uint32_t, bool> distance(std::uint32_t r) const {
     return {uses_.next(in_register_[r]), memory_[in_register_[r]] != nowhere};
   }
   std::uint32_t free_register(std::uint32_t wanted, std::uint64_t pinned) const {
     const auto is_free = [&](std::uint32_t r) { return in_register_[r] == never && (pinned >> r & 1) == 0; };
     if (wanted != never && is_free(wanted)) return wanted;
-    for (auto r = static_cast<std::uint32_t>(in_register_.size()); r-- > 0;) {  // those that are homes are the lowest
+    for (auto r = static_cast<std::uint32_t>(in_register_.size()); r-- > 0;) {  // homes have the lowest numbers
       if (is_free(r)) return r;
     }
     return never;
@@ -156,8 +156,7 @@ class Allocator {
     return k == never ? never : register_home_[k];
   }
 
-  /// Loads what is in memory where that pays: it is used again, and no register would have to give up a number that is
-  /// used sooner.
+  /// Loads an operand from memory if it is used again, and if no number with an earlier use loses its register.
   void load_if_wanted(const Operand& operand, std::uint64_t pinned) {
     const std::uint32_t n = uses_.number(operand);
     if (n == never || registers_[n] != never) return;
@@ -171,7 +170,7 @@ class Allocator {
     emit_move(reg(r), memory_[n]);
     bind(n, r);
   }
-  /// A register with `a`.
+  /// Returns a register that contains `a`.
   std::uint32_t first_in_register(const Operand& a, std::uint32_t wanted) {
     load_if_wanted(a, 0);
     const Place place = place_of(a);
@@ -181,8 +180,8 @@ class Allocator {
     return r;
   }
 
-  /// Operands are read from now on; those that nothing uses later leave their registers. Their memory is free only once
-  /// the line stands (after_line): what is stored in between must not overwrite what it reads.
+  /// Marks operands as read. Operands without a later use leave their registers. Their memory becomes free only after
+  /// the line (after_line), because a store before it must not overwrite what the line reads.
   void pass(const Operand& a, const Operand& b, const Operand& c = {}) {
     for (const Operand& operand : {a, b, c}) {
       const std::uint32_t n = uses_.number(operand);
@@ -202,7 +201,7 @@ class Allocator {
     if (memory_[number].kind == Place::Kind::slot) free_slots_.push_back(memory_[number].index);
   }
 
-  /// The register of a, and where b is, for a line that reads both.
+  /// Returns the register of a and the place of b, for a line that reads both.
   std::pair<Place, Place> operands(const Operand& a, const Operand& b, std::uint32_t wanted) {
     const std::uint32_t first = first_in_register(a, wanted);
     if (b == a) return {reg(first), reg(first)};
@@ -229,7 +228,7 @@ class Allocator {
     if (uses_.next(number) != never) bind(number, to);
   }
 
-  /// Read where the caller has it.
+  /// Places an of_lane operation, which reads the array of the caller.
   void place_of_lane(const Program::Operation& operation, std::uint32_t number) {
     pass(operation.a, {});
     const std::uint32_t to = take_register(wanted_for(number));
@@ -243,7 +242,7 @@ class Allocator {
     if (uses_.next(number) != never) bind(number, to);
   }
 
-  /// The result takes the place of c: in its own register where nothing needs c any more, else in a copy of it.
+  /// Places a fused operation. Its result replaces c: in the register of c if c is not used later, else in a copy.
   void place_fused(const Program::Operation& operation, std::uint32_t number, const Place& first, const Place& second) {
     const auto& [instruction, a, b, c] = operation;
     const std::uint32_t n = uses_.number(c);
@@ -288,7 +287,7 @@ class Allocator {
     if (operation.instruction == Instruction::sine_of_both && uses_.next(number + 1) != never) bind(number + 1, 1);
   }
 
-  /// Every output to where the next step finds it.
+  /// Moves every output to the place where the next step reads it.
   void close_step() {
     std::vector<Move> moves;
     for (std::uint32_t k = 0; k < values_; ++k) {
@@ -312,10 +311,10 @@ class Allocator {
   const std::uint32_t values_;
   std::vector<std::uint32_t> in_register_;  // the number in each register
   std::vector<std::uint32_t> registers_;    // the register of each number
-  std::vector<Place> memory_;               // where each number is stored, if it is
-  std::vector<std::uint32_t> output_;       // the first output that a number is
+  std::vector<Place> memory_;               // the place in memory of each number, or nowhere
+  std::vector<std::uint32_t> output_;       // the first output that equals a number
   std::vector<char> is_dead_;
-  std::vector<std::uint32_t> register_home_;  // of each carried value, if it has one
+  std::vector<std::uint32_t> register_home_;  // the fixed register of each carried value, if it has one
   std::vector<std::uint32_t> free_slots_;
   std::uint32_t event_ = 0;
   PlacedProgram result_;

@@ -1,4 +1,4 @@
-// The lines of a placed program in scalar instructions of AVX, one line after the other.
+// Assembles the lines of a placed program as scalar AVX instructions.
 #include <algorithm>
 #include <stdexcept>
 
@@ -31,7 +31,7 @@ class ScalarAssembler final : public LoopAssembler {
     }
   }
 
-  /// An operand that may be in a register or in memory.
+  /// Emits an instruction whose operand is in a register or in memory.
   template <class Emit>
   void with(const Place& place, const Emit& emit) {
     if (place.kind == Place::Kind::reg) {
@@ -51,14 +51,14 @@ class ScalarAssembler final : public LoopAssembler {
     }
   }
 
-  /// A branch: what is chosen seldom is foreseen by the processor, and nobody waits for it. Lines that choose by one
-  /// number, one behind the other, share it.
+  /// Emits a branch, which the processor predicts well because one side is rare. Consecutive lines that choose by the
+  /// same number share the branch.
   void choose(const Line& line) {
     if (chosen_by_ != line.a) {
       close();
       unchanged_ = a_.newLabel();
       a_.vucomisd(xmm(line.a), x86::qword_ptr(table_, zero));
-      a_.jbe(unchanged_);  // or not ordered
+      a_.jbe(unchanged_);  // also taken for NaN
       chosen_by_ = line.a;
     }
     move({Line::Kind::move, {}, {}, line.to, line.b, {}});
@@ -84,7 +84,7 @@ class ScalarAssembler final : public LoopAssembler {
         return with(line.b, [&](const auto& b) { a_.vmulsd(to, a, b); });
       case Instruction::divide:
         return with(line.b, [&](const auto& b) { a_.vdivsd(to, a, b); });
-      case Instruction::larger:  // the second where they are equal or one is NaN
+      case Instruction::larger:  // gives the second operand if they are equal or one is NaN
         return with(line.b, [&](const auto& b) { a_.vmaxsd(to, a, b); });
       case Instruction::negate:
         a_.vxorpd(to, a, x86::ptr(table_, sign_mask));
@@ -93,7 +93,7 @@ class ScalarAssembler final : public LoopAssembler {
         a_.vandpd(to, a, x86::ptr(table_, magnitude_mask));
         return;
       case Instruction::sqrt:
-        a_.vsqrtsd(to, a, a);  // the other half from a as well: no wait for what `to` was
+        a_.vsqrtsd(to, a, a);  // takes the upper half from a, too, so that it does not wait for the old `to`
         return;
       default:
         throw std::logic_error("machine code: an instruction that is a call");
@@ -111,7 +111,7 @@ class ScalarAssembler final : public LoopAssembler {
   void check(const Line& line) override {
     using Check = Program::Check::Kind;
     const x86::Xmm a = xmm(line.a);
-    if (line.check == Check::finite) {  // x - x is NaN where x is not finite
+    if (line.check == Check::finite) {  // x - x is NaN if x is not finite
       a_.vsubsd(xmm(line.to), a, a);
       a_.vucomisd(xmm(line.to), xmm(line.to));
       a_.jp(failed_);
@@ -119,7 +119,7 @@ class ScalarAssembler final : public LoopAssembler {
     }
     with(line.b, [&](const auto& b) { a_.vucomisd(a, b); });
     const Label holds = a_.newLabel();
-    switch (line.check) {  // unordered sets the parity, zero and carry flags
+    switch (line.check) {  // a comparison with NaN sets the parity, zero and carry flags
       case Check::equal:
         a_.jp(failed_);
         a_.jne(failed_);
@@ -149,7 +149,7 @@ class ScalarAssembler final : public LoopAssembler {
       a_.jne(after);
       return;
     }
-    a_.mov(x86::rax, memory(place));  // +0 and -0 but for the sign
+    a_.mov(x86::rax, memory(place));  // compared as bits, without the sign of a zero
     a_.add(x86::rax, x86::rax);
     a_.jnz(after);
   }
@@ -162,8 +162,8 @@ class ScalarAssembler final : public LoopAssembler {
   }
 
   const std::vector<double>& constants_;
-  Label unchanged_;    // where lines go on that were not chosen
-  Place chosen_by_{};  // the number that decides on the lines here, if one does
+  Label unchanged_;    // the end of the open branch
+  Place chosen_by_{};  // the number that the open branch tests, if there is one
 };
 
 }  // namespace

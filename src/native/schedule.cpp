@@ -8,7 +8,7 @@ namespace {
 
 using Kind = Operand::Kind;
 
-/// Cycles until a result can be used, on today's processors: what matters is which chains are long.
+/// Approximate cycles until a result can be used on current processors. It only matters which chains are long.
 int latency(Instruction instruction) {
   switch (instruction) {
     case Instruction::add:
@@ -29,8 +29,8 @@ int latency(Instruction instruction) {
   }
 }
 
-/// Cycles from the start of every operation to the end of the longest chain that begins with it. A chain goes on in the
-/// next step: what an output is followed by there counts, hence two rounds.
+/// Computes for every operation the cycles to the end of the longest chain that begins with it. A chain continues in
+/// the next step through an output, so a second pass adds what follows there.
 std::vector<int> heights(const Program& program) {
   const std::size_t size = program.operations.size();
   std::vector<int> height(size), of_carried(program.values());
@@ -56,11 +56,11 @@ std::vector<int> heights(const Program& program) {
 }  // namespace
 
 Program scheduled(const Program& program, std::size_t window) {
-  constexpr int width = 4;  // operations a cycle
+  constexpr int width = 4;  // operations per cycle
   const std::size_t size = program.operations.size();
   const std::vector<int> height = heights(program);
   constexpr int unknown = std::numeric_limits<int>::max();
-  std::vector<int> ready(size, unknown);  // the cycle in which a result is there
+  std::vector<int> ready(size, unknown);  // the cycle in which a result is available
   std::vector<std::size_t> candidates, order;
   order.reserve(size);
   std::size_t entered = 0;
@@ -77,7 +77,7 @@ Program scheduled(const Program& program, std::size_t window) {
       soonest = std::min(soonest, at);
       if (at <= cycle && (best == candidates.size() || height[candidates[c]] > height[candidates[best]])) best = c;
     }
-    if (best == candidates.size() || issued == width) {  // the oldest candidate has its operands, now or later
+    if (best == candidates.size() || issued == width) {  // the oldest candidate gets its operands in a later cycle
       cycle = best == candidates.size() ? soonest : cycle + 1;
       issued = 0;
       continue;

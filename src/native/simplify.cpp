@@ -24,17 +24,17 @@ struct OperationHash {
   }
 };
 
-/// A power of two with a reciprocal: dividing by the one is multiplying by the other.
+/// Whether x is a power of two with a finite reciprocal, so that a division by x is an exact multiplication.
 bool has_exact_reciprocal(double x) {
   int exponent = 0;
   return std::fabs(std::frexp(x, &exponent)) == 0.5 && std::isfinite(1 / x);
 }
 
-/// Builds a program whose operations are simple, each once.
+/// Builds a program of simplified operations, without duplicates.
 class Simplifier {
  public:
   explicit Simplifier(const Program& program) {
-    std::vector<Operand> places;  // of the results of `program` in the new one
+    std::vector<Operand> places;  // the operands in the new program for the results of `program`
     places.reserve(program.operations.size());
     const auto moved = [&](const Operand& operand) {
       if (operand.kind == Kind::result) return places[operand.index];
@@ -69,7 +69,7 @@ class Simplifier {
     return new_.constants[operand.index];
   }
 
-  /// What `operand` is the negative of, if it was made by a negation.
+  /// Returns x if the operand is a negation -x.
   std::optional<Operand> negated(const Operand& operand) const {
     if (operand.kind != Kind::result) return std::nullopt;
     const Operation& operation = new_.operations[operand.index];
@@ -88,7 +88,7 @@ class Simplifier {
     if (x && (y || b.kind == Kind::none)) return constant(applied(instruction, *x, y.value_or(0)));
     const auto minus_a = negated(a), minus_b = negated(b);
     switch (instruction) {
-      case Instruction::add:  // x + (-0) is x for every x
+      case Instruction::add:  // x + (-0) = x for every x
         if (minus_b) return result({Instruction::subtract, a, *minus_b});
         if (minus_a) return result({Instruction::subtract, b, *minus_a});
         if (y && *y == 0 && std::signbit(*y)) return a;
@@ -129,7 +129,7 @@ class Simplifier {
   Operand result_by_constant(const Operand& a, double factor, const Operation& product) {
     if (factor == 1) return a;
     if (factor == -1) return result({Instruction::negate, a, {}});
-    if (factor == 2) return result({Instruction::add, a, a});  // the sooner of the two
+    if (factor == 2) return result({Instruction::add, a, a});  // an addition has the shorter latency
     return numbered(product);
   }
 
@@ -147,7 +147,7 @@ class Simplifier {
   std::unordered_map<Operation, std::uint32_t, OperationHash> numbers_;
 };
 
-/// Without results and constants that no output and no check depends on.
+/// Removes results and constants on which no output and no check depends.
 Program without_dead_code(const Program& program) {
   std::vector<char> live(program.operations.size());
   const auto mark = [&](const Operand& operand) {

@@ -9,7 +9,7 @@ namespace {
 using Kind = Operand::Kind;
 using Number = std::pair<Kind, std::uint32_t>;
 
-/// Of one number: where its sine and its cosine are computed.
+/// The operations that compute the sine and the cosine of a number.
 struct Asked {
   std::optional<std::size_t> sine, cosine;
 };

@@ -6,7 +6,7 @@ namespace hamflow::native {
 
 std::vector<Event> events_of(const Program& program) {
   const auto size = static_cast<std::uint32_t>(program.operations.size());
-  std::vector<std::vector<std::uint32_t>> checks(size + 1);  // that can be made before each operation
+  std::vector<std::vector<std::uint32_t>> checks(size + 1);  // checks that become possible before each operation
   for (std::uint32_t c = 0; c < program.checks.size(); ++c) {
     std::uint32_t at = 0;
     for (const Operand& operand : {program.checks[c].a, program.checks[c].b}) {
@@ -27,7 +27,7 @@ Uses::Uses(const Program& program, const std::vector<Event>& events)
     : values_(static_cast<std::uint32_t>(program.values())) {
   const std::size_t numbers = values_ + program.operations.size();
   const auto end = static_cast<std::uint32_t>(events.size());
-  const auto each = [&](const auto& visit) {  // (number, event), events ascending
+  const auto each = [&](const auto& visit) {  // calls visit(number, event) with ascending events
     const auto one = [&](const Operand& operand, std::uint32_t event) {
       if (const std::uint32_t n = number(operand); n != never) visit(n, event);
     };

@@ -1,4 +1,4 @@
-// The events of a program in their order, and where each number is used next.
+// The order of operations and checks of a program (events), and the next use of each number.
 #pragma once
 
 #include "hamflow/detail/numerics/program.hpp"
@@ -7,38 +7,38 @@ namespace hamflow::native {
 
 constexpr std::uint32_t never = 0xffffffff;
 
-/// One operation or one check.
+/// An operation or a check.
 struct Event {
   bool is_check;
   std::uint32_t index;
 };
 
-/// Every operation, and every check as soon as what it looks at is known.
+/// Lists all operations in order, with each check as soon as its numbers are known.
 std::vector<Event> events_of(const Program& program);
 
-/// Numbers by one index: what is carried, then results.
+/// The uses of numbers. Numbers have one index: carried values first, then results.
 class Uses {
  public:
   Uses(const Program& program, const std::vector<Event>& events);
 
-  /// `never` for constants.
+  /// Returns the index of an operand; `never` for constants.
   std::uint32_t number(const Operand& operand) const {
     if (operand.kind == Operand::Kind::carried) return operand.index;
     if (operand.kind == Operand::Kind::result) return values_ + operand.index;
     return never;
   }
   std::uint32_t count() const { return static_cast<std::uint32_t>(next_.size()); }
-  /// The event that uses the number next: events.size() as an output only, `never` if nothing does.
+  /// Returns the next event that uses the number: events.size() if it is only an output, `never` if it is not used.
   std::uint32_t next(std::uint32_t number) const { return next_[number]; }
-  /// The use behind `event`.
+  /// Returns the next use after `event`.
   std::uint32_t next_after(std::uint32_t number, std::uint32_t event) const;
-  /// Goes past `event`, which uses the number (or does not).
+  /// Advances past `event`, whether it uses the number or not.
   void pass(std::uint32_t number, std::uint32_t event);
 
  private:
   std::uint32_t values_;
-  std::vector<std::uint32_t> uses_;             // of all numbers, ascending for each
-  std::vector<std::uint32_t> at_, end_, next_;  // of each number: its next in uses_, its last there, when
+  std::vector<std::uint32_t> uses_;  // the events that use each number, ascending, one number after the other
+  std::vector<std::uint32_t> at_, end_, next_;  // for each number: index of its next use, end of its uses, next event
 };
 
 }  // namespace hamflow::native

@@ -20,8 +20,8 @@ class LaneLoop {
   /// @param constants of the j-th constant that differs, in the program's order, in lane i at j lanes() + i
   virtual LaneNumbers prepared(std::span<const double> constants) const = 0;
   /// Repeats the program `steps` times in every lane.
-  /// @param carried values() x lanes() numbers, in place: of value k in lane i at k lanes() + i   @param constants
-  /// prepared
+  /// @param carried values() x lanes() numbers, changed in place; value k of lane i is at index k lanes() + i
+  /// @param constants the prepared constants
   /// @param failed lanes() flags; set if a check fails at any step, never cleared. The values of such a lane are
   /// undefined; all other lanes continue
   /// @return the number of steps taken: fewer if the program ends by itself in any lane (Program::ends_at)
@@ -29,8 +29,8 @@ class LaneLoop {
                            std::span<bool> failed) const = 0;
 };
 
-/// Machine code of 16 (avx2) or 32 lanes (avx512) where `lanes` asks for it, processor and system allow it and
-/// HAMFLOW_NATIVE is not 0; else interpreted, as many lanes. generic: 16 lanes, interpreted.
+/// Makes machine code for 16 (avx2) or 32 (avx512) lanes, if the processor and the system allow it and HAMFLOW_NATIVE
+/// is not 0; otherwise the same number of lanes is interpreted. generic: 16 interpreted lanes.
 /// @param registers per number; with fewer than four there are correspondingly fewer lanes. Four registers hide
 /// latencies in programs with one chain of operations; for long programs with many chains one is better
 /// @param differs for each constant of the program whether it differs between members

@@ -26,7 +26,7 @@ class Differentiation {
     }
     for (std::size_t i = 0; i < in_.operations.size(); ++i) {
       const auto& operation = in_.operations[i];
-      if (operation.instruction == Instruction::choose) {  // the slope of what is chosen
+      if (operation.instruction == Instruction::choose) {  // selects the slope with the value
         choose(i);
         continue;
       }
@@ -106,7 +106,7 @@ class Differentiation {
     }
   }
 
-  /// dy of y = instruction(a, b). False where it has none.
+  /// Computes dy for y = instruction(a, b). Returns false if the instruction has no derivative.
   bool differentiate(Instruction instruction, Operand a, Operand b, Operand y, Operand da, Operand db, Operand& dy) {
     using I = Instruction;
     switch (instruction) {
@@ -170,7 +170,7 @@ class Differentiation {
   Program out_;
   std::vector<Operand> place_;
   std::vector<std::vector<Operand>> slopes_;  // of results, for each vector
-  std::vector<std::vector<Operand>> first_;   // of what is carried
+  std::vector<std::vector<Operand>> first_;   // slopes of the carried values
 };
 }  // namespace
 

@@ -39,7 +39,7 @@ R found_between(const std::function<R(R)>& f, R a, R b, R at_a, R at_b) {
     const R x = a > 0 && b > 4 * a ? std::sqrt(a) * std::sqrt(b) : a + (b - a) / 2;
     if (!(a < x && x < b)) return best;
     const R value = watched(x);
-    const bool above = (value > 0) == rising;  // the zero; what is no number counts as not positive
+    const bool above = (value > 0) == rising;  // whether x is above the zero; NaN counts as not positive
     (above ? b : a) = x;
     (above ? at_b : at_a) = value;
     if (b - a <= 2 * epsilon * std::abs(a)) return best;

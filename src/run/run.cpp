@@ -63,7 +63,7 @@ class SummingObserver {
   SummingObserver& operator=(const SummingObserver&) = delete;
 
   std::span<Observer* const> others() const { return others_; }
-  /// To be called before another observer sees the state or reads the sums.
+  /// Call this before another observer sees the state or reads the sums.
   void reach(Frame& frame) {
     if (spared_ == nullptr) return;
     simulation_.look(frame);

@@ -1,5 +1,5 @@
-// The definition of simulate_erased, instantiated in one file for each number type, and in double in another one for
-// the methods whose steps are recorded: few of their steps are not recorded, so that light optimisation is enough.
+// The definition of simulate_erased. One file for each number type instantiates it. Methods whose steps are recorded in
+// double have a separate file with light optimisation, because only few of their steps run as compiled code.
 #pragma once
 
 #include "engine/asking_functions.hpp"
@@ -14,7 +14,7 @@
 
 namespace hamflow {
 
-/// The arithmetic in which the steps of another one are recorded.
+/// The traced arithmetic in which the steps of an arithmetic are recorded.
 template <class A>
 struct TracedArithmetic;
 template <>
@@ -39,7 +39,7 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe) {
   };
 }
 
-/// Whether a method takes steps whose length is recorded.
+/// Whether a method supports recorded steps of varying length.
 template <class P, class A, class M>
 constexpr bool takes_recorded_lengths = requires(typename M::template Stepper<P, A>& stepper, const P& problem,
                                                  const Trace<double>& h, PhasePoint<A, dynamic>& z) {
@@ -55,7 +55,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
     return {};
   } else {
     if (!run.walls || run.walls->rule != WallRule::event) return {};
-    if (run.functions.plain->has_clock()) return {};  // the time at which the step began is no constant
+    if (run.functions.plain->has_clock()) return {};  // the time at the start of the step is not a constant
     const std::size_t n = run.functions.size;
     return [problem = Traced(n, run.functions.trace), recipe](const Vector<double, dynamic>& q,
                                                               const Vector<double, dynamic>& p, double h) {
@@ -64,7 +64,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   }
 }
 
-/// Records steps of varying length, for methods that support any length and natural Hamiltonians; else empty.
+/// Records steps of varying length, for methods that support them and natural Hamiltonians; else empty.
 template <Capability c, class A, class M>
 StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, const Request& request) {
   using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
@@ -86,15 +86,15 @@ StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, 
   }
 }
 
-/// The half of simulate_erased<double> that is made of recorded steps.
+/// The part of simulate_erased<double> for methods whose steps are recorded.
 std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request);
-/// Nothing is recorded in other numbers; clang++ asks for it wherever the call stands.
+/// Other number types have no recorded steps. clang++ needs this declaration although it is never called.
 template <class R>
 std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<R>&, const Request&) {
   return nullptr;
 }
 
-/// @tparam recorded in double: the methods whose steps are recorded, or all others and the lattice
+/// @tparam recorded selects, in double, the methods whose steps are recorded; false: all others, and the lattice
 template <class R, bool recorded>
 std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request& request) {
   using Result = std::unique_ptr<Simulation>;

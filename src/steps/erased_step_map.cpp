@@ -1,5 +1,5 @@
-// The StepMap of every method, on problems behind virtual calls: compiled once for each method. Steps in quad are those
-// of simulations, and the exact flows know nothing of methods: neither is compiled again.
+// The StepMap of every method, on problems behind virtual calls, compiled once for each method. It is not compiled
+// again for steps in quad, which simulations take, and for exact flows, which do not depend on methods.
 #include <cstring>
 
 #include "engine/recorded_tangents.hpp"
@@ -15,7 +15,7 @@ struct ErasedWith {
   template <class R>
   using Of = Erased<R, c>;
 };
-/// Tangent vectors in double go through the recorded step.
+/// Tangent vectors in double use the recorded step.
 template <Capability c, class Recipe>
 TangentSteps tangents_of(const ErasedFunctions<double>& functions, const Recipe& recipe) {
   using Traced = AnyProblem<Trace<double>, c>;
@@ -27,7 +27,7 @@ TangentSteps tangents_of(const ErasedFunctions<double>& functions, const Recipe&
   });
 }
 
-/// As few capability sets as there are kinds of flows, whatever the methods take.
+/// The capability set for exact flows: only two kinds of flows are compiled, for any method.
 template <Capability c>
 constexpr Capability flow_face = includes(c, Capability::constrained) ? c : Capability::smooth;
 
@@ -50,7 +50,7 @@ auto simulations(const ErasedFunctions<double>& functions, const MethodSpec& met
   };
 }
 
-/// Steps from a fresh start. What is stored of a coordinate begins with its number, whatever else it carries.
+/// Takes steps from a new start. The stored data of a coordinate begin with its number, in every arithmetic.
 auto steps_in_quad(const ErasedFunctions<Quad>& functions, const MethodSpec& method) {
   return [functions, method](State<Quad>& z, const Quad& h, std::int64_t steps) {
     const auto part = [&](std::size_t first) { return detail::part_of<Quad, dynamic>(z, first); };

@@ -16,7 +16,7 @@ constexpr auto capability_sets_of() {
   if constexpr (requires { M::capability_sets; }) {
     return std::to_array(M::capability_sets);
   } else if constexpr (M::template accepts<Erased<double, Capability::smooth>>) {
-    // Derivatives come in two parts where H has two.
+    // If H = T + V, the derivatives come in two parts.
     return std::array{Capability::separable, Capability::smooth};
   } else if constexpr (M::template accepts<Erased<double, Capability::separable>>) {
     return std::array{Capability::separable};
@@ -25,7 +25,7 @@ constexpr auto capability_sets_of() {
   }
 }
 
-/// The result is named: clang++ 14, where it has to compile f to find out, loses some of what f needs.
+/// The result type is explicit, because clang++ 14 fails to deduce it: it omits functions that f needs.
 template <class Result, class M, std::size_t k, class F>
 Result visit_capability_set(Capability offered, const M& recipe, F&& f) {
   constexpr auto sets = capability_sets_of<M>();
@@ -37,10 +37,10 @@ Result visit_capability_set(Capability offered, const M& recipe, F&& f) {
 }
 }  // namespace detail
 
-/// Calls f.operator()<set>(recipe) with the first capability set of the recipe that the problem offers. cg(1) of a
-/// large system is solved as elements of higher degree are, without a matrix.
-/// @param size its degrees of freedom
-/// @tparam Result what f returns
+/// Calls f.operator()<set>(recipe) with the first capability set of the recipe that the problem offers. cg(1) for a
+/// large system is replaced by the implementation for elements of higher degree, which needs no matrix.
+/// @param size the degrees of freedom
+/// @tparam Result the result type of f
 template <class Result, class F>
 Result visit_erased(Capability offered, std::size_t size, const MethodSpec& spec, F&& f) {
   return visit_method(spec, [&]<class M>(const M& recipe) -> Result {

@@ -81,7 +81,7 @@ class WallSearch {
     return 2 * std::numeric_limits<R>::epsilon() * larger(R(abs(side.at)), R(abs(q0[side.coordinate])));
   }
 
-  /// Where the path between two known points hits a wall, if that is before the hit found so far.
+  /// Finds the hit of a wall between two known points of the path, if it is before the hit found so far.
   template <class Look>
   Found meet(std::size_t k, const R& close, const Point& start, const Point& end, const Look& look, Found found,
              Hit& hit) const {

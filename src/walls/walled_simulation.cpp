@@ -330,7 +330,7 @@ class WalledSimulation : public Simulation {
     return parts_->complete_step();
   }
 
-  /// The same as machine code only, without saving the state. @return false if nothing was done
+  /// As bounce(), with machine code only and without saving the state. @return false if nothing was done
   bool bounce_in_numbers() {
     if constexpr (std::is_same_v<R, double>) {
       PartsInNumbers* const numbers = bounces_in_numbers_ ? in_numbers_->parts_in_numbers() : nullptr;

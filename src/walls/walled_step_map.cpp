@@ -236,7 +236,7 @@ class WalledStepMap final : public StepMap {
   }
 
   /// A difference quotient of two steps in quad. With a distance of 2^-37 h its error and its rounding are both some
-  /// 2^-74, and no kernel has to be compiled for dual step lengths. Newton iterates to the rounding of quad, because a
+  /// 2^-74, and no kernel has to be compiled for dual step sizes. Newton iterates to the rounding of quad, because a
   /// residual at the tolerance would be divided by the distance. h is the length of the whole step, since a part may be
   /// much shorter.
   std::optional<State<double>> rate_of(const State<double>& z, double length, double h) const {

@@ -28,7 +28,7 @@ struct Compensated {
     static constexpr const Real& read(const Stored& s) { return s.high; }
     /// s <- s + r: the error of high + (r + low) is found exactly (two-sum, no assumption on magnitudes) and kept.
     static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
-    /// The same with an exact sum r + low, because its rounding error had a mean other than 0 on some orbits
+    /// As add(), but the sum r + low is exact, because its rounding error had a mean other than 0 on some orbits
     /// (docs/design/cg.md).
     static constexpr void add_keeping(Stored& s, const Real& r) {
       const R increment = r + s.low;
@@ -53,9 +53,9 @@ struct Compensated {
       const R part = s.high - pending.before;
       s.low = (pending.before - (s.high - part)) + (pending.increment - part);
     }
-    /// The same as add, bit for bit, without a branch and with low available two operations sooner. The error of a sum
-    /// is the smaller summand minus its part in the sum [Dekker1971, (4.14)]: computed for either order, then chosen.
-    /// Where it is 0 add gives +0, and so must this: the added zeros turn -0 into +0.
+    /// Gives the bits of add() without a branch, with low available two operations earlier. The error of a sum is the
+    /// smaller summand minus its part in the sum [Dekker1971, (4.14)]; it is computed for both orders, then one is
+    /// selected. If the error is 0, add() gives +0, so zeros are added here to turn -0 into +0.
     static void add_sooner(Stored& s, const Real& r) {
       if constexpr (std::is_floating_point_v<R>) {
         const R increment = r + s.low;
@@ -64,7 +64,7 @@ struct Compensated {
         const R if_larger = (s.high + R(0)) - (sum - increment);
         s.low = std::abs(increment) <= std::abs(s.high) ? if_smaller : if_larger;
         s.high = sum;
-      } else {  // may be inexact there
+      } else {  // for other types the formula may be inexact
         add(s, r);
       }
     }

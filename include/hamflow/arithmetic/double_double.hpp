@@ -83,8 +83,8 @@ struct ExtendedTraits<dd_real> {
     const auto high = static_cast<double>(x);
     return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<QuadNumber>(high))) : T(high);
   }
-  /// By way of quad, whose reader rounds correctly: QD's own loses some digits. Only what written() gives where quad
-  /// cannot hold both halves has more than 64 digits, and is read as it stands.
+  /// Reads a text in quad, whose reader rounds correctly; that of QD loses some digits. A text with more than 64 digits
+  /// is read by read_wide(): written() makes such texts if quad cannot represent both halves.
   static T read(std::string_view text) {
     const std::string_view mantissa = text.substr(0, text.find_first_of("eE"));
     if (std::count_if(mantissa.begin(), mantissa.end(), [](char c) { return c >= '0' && c <= '9'; }) > 64) {

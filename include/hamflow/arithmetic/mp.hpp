@@ -1,7 +1,7 @@
 // Multiple precision with a number of digits chosen at run time, by MPFR.
-// The digits are a property of the thread: code that computes in Mp runs inside an MpDigits scope, and every number
-// made there, results included, has those digits. Beyond 10^(10^6) it is infinite. Operations are compiled once
-// (src/arithmetic/mp.cpp): a call is nothing beside them, and problems compile faster for it.
+// The number of digits is a property of the thread. Code that computes in Mp runs inside an MpDigits scope, and every
+// number made there, including results, has these digits. A number beyond 10^(10^6) becomes infinite. Operations are
+// compiled only once (src/arithmetic/mp.cpp): the cost of a call is negligible, and problems compile faster.
 #pragma once
 
 #include "hamflow/detail/arithmetic/extended.hpp"
@@ -37,7 +37,7 @@ double binary_logarithm(const Mp& x);
 /// In scientific notation. @param places behind the point
 std::string scientific_text(const Mp& x, int places);
 
-/// In a checkpoint: hexadecimal, with its precision.
+/// The text of a number in a checkpoint: hexadecimal, with its precision.
 std::string exact_text(const Mp& x);
 void from_exact_text(const std::string& text, Mp& x);
 template <>

@@ -62,7 +62,7 @@ class BulkForces {
 
   /// f <- -dV/dq. @param q, f space x particles numbers, particle by particle
   void force(const double* q, double* f) const;
-  /// The same, and V.
+  /// Computes forces as force(), and returns V.
   double force_and_potential(const double* q, double* f) const;
   /// V. If the last force was evaluated at the same q and has computed V too, there is no pass over pairs. Forces
   /// compute V once potential() has been called after a force.

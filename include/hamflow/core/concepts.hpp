@@ -115,7 +115,7 @@ concept PairwiseForces = Separable<P> && requires(const P& problem, const typena
   problem.pair_kicks(factor, difference, row, row, sink);
 };
 
-/// **PairwiseGradients**: the same for V'' v, in kicks with force gradient.
+/// **PairwiseGradients**: V'' v is a sum over pairs, too, for kicks with force gradient.
 template <class P>
 concept PairwiseGradients = PairwiseForces<P> &&
     requires(const P& problem, const typename P::Real& factor,

@@ -83,7 +83,7 @@ void scaled_velocity(const P& problem, const F& factor, const Vector<S, N>& p, V
   }
 }
 
-/// f = -factor dV/dq, the increment of a kick, likewise.
+/// f = -factor dV/dq, the increment of a kick. As for scaled_velocity, a problem may multiply its constants instead.
 template <class P, class F, class S, std::size_t N>
 void scaled_force(const P& problem, const F& factor, const Vector<S, N>& q, Vector<S, N>& f) {
   if constexpr (HasScaledForce<P, F, S>) {

@@ -38,7 +38,7 @@ struct MethodInfo {
   bool own_substeps = false;  // the method divides a step into sub-steps of its own choice
   bool halves_steps = false;  // a step that does not converge is replaced by two half steps
   bool carries_copy = false;  // integrates a second copy of the state; the claims hold for both copies together
-  bool varies_steps = false;  // step lengths vary, and the time is part of the state (detail/methods/step_density.hpp)
+  bool varies_steps = false;  // step sizes vary, and the time is part of the state (detail/methods/step_density.hpp)
   bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
 };
 
@@ -87,7 +87,7 @@ struct StepDiagnostics {
   }
 };
 
-/// What a method has computed since it was constructed.
+/// The work of a method since it was constructed.
 struct Effort {
   long long force = 0;          // evaluations of -dV/dq
   long long gradient = 0;       // evaluations of the whole gradient of H

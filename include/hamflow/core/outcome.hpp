@@ -46,8 +46,8 @@ constexpr bool is_failure(Outcome outcome) {
   return outcome != Outcome::done && outcome != Outcome::stopped && outcome != Outcome::not_run;
 }
 
-/// What went wrong, as a sentence without a full stop; empty if nothing did. Simulation::failure() has more about a
-/// step that did not converge.
+/// The failure as a sentence without a full stop; empty if there is none. Simulation::failure() says more about a step
+/// that did not converge.
 constexpr std::string_view message(Outcome outcome) {
   switch (outcome) {
     case Outcome::not_converged:

@@ -32,7 +32,7 @@ struct PhasePoint {
       return x;
     }
   }
-  /// The momenta likewise.
+  /// The momenta as numbers, or a reference as for positions().
   decltype(auto) momenta() const {
     if constexpr (N == dynamic && std::is_same_v<Stored, Real>) {
       return static_cast<const Vector<Real, N>&>(p);

@@ -179,7 +179,7 @@ class Parameters {
   R operator[](const std::string& name) const { return values_.at(name).at(0); }
   const std::vector<R>& list(const std::string& name) const { return values_.at(name); }
   void set(const std::string& name, const R& value) { values_[name] = {value}; }
-  /// The same values in another number type.
+  /// Returns the same values in another number type.
   template <class To>
   Parameters<To> as() const {
     Parameters<To> out;

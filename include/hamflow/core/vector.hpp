@@ -111,7 +111,7 @@ constexpr Matrix<R, N> zero_matrix(const Vector<R, N>& x) {
   }
 }
 
-/// The same values in another number type.
+/// Returns the same values in another number type.
 template <class To, class From, std::size_t N>
 constexpr Vector<To, N> cast(const Vector<From, N>& x) {
   Vector<To, N> y = zeros<To, N>(x.size());

@@ -1,8 +1,8 @@
-// **Formulas as text**: "p^2/(2*m) + k*(1 - cos(q))" is read into a graph, and evaluated in any number type. The
-// grammar: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), the functions sqrt exp log sin cos tan asin acos atan atan2
-// sinh cosh tanh abs, pi or Pi, parentheses, names, and
-//     let r = sqrt(x^2 + y^2), u = 1/r in ...     names for what occurs several times
-//     sum(i, 1, n - 1, (x[i+1] - x[i])^2)         sums; an index is a whole expression of i, numbers, parameters
+// **Formulas as text**: "p^2/(2*m) + k*(1 - cos(q))" is parsed to a graph, which can be evaluated in any number type.
+// The grammar has + - * / ^ ** (^ associates to the right, -x^2 = -(x^2)), the functions sqrt exp log sin cos tan asin
+// acos atan atan2 sinh cosh tanh abs, pi or Pi, parentheses, names, and
+//     let r = sqrt(x^2 + y^2), u = 1/r in ...     names for repeated parts
+//     sum(i, 1, n - 1, (x[i+1] - x[i])^2)         sums; an index is a whole number from i, numbers and parameters
 // A text is parsed and never executed as code; it can use only the values that it names. Every error has the column,
 // what was found, what is allowed, and the nearest name (src/core/text_place.hpp).
 #pragma once
@@ -21,7 +21,8 @@ namespace hamflow {
 
 /// The names that a formula may use.
 struct FormulaSymbols {
-  /// In the order of their values: "x", "x[1]" (an entry of a list), "problem.initial.q[1]" (a key), "t" (the time).
+  /// The names, in the order of their values: "x", "x[1]" (an entry of a list), "problem.initial.q[1]" (a key), "t"
+  /// (time).
   std::vector<std::string> names;
   /// Names with a value that is known when the formula is parsed. Whole values may be used in indices and limits of
   /// sums; constant parts of a formula must be finite with these values.
@@ -43,13 +44,13 @@ class Formula {
   Formula();
   Formula(std::shared_ptr<const formula::Graph> graph, int root, std::size_t symbols);
 
-  /// Its value. @param values as many as there are names, in their order   @tparam S any number type
+  /// Evaluates the formula. @param values one for each name, in their order   @tparam S any number type
   template <class S>
   S evaluate(std::span<const S> values) const {
     using R = base_number<S>;
     return evaluate(formula::BoundCode<R>(code_, [](int) { return R(0); }), values);
   }
-  /// The same with constants evaluated before, for many states: call `bind<R>()` once, then this.
+  /// Evaluates the formula at many states: call `bind<R>()` once, which evaluates the constants, then this.
   template <class R>
   formula::BoundCode<R> bind() const {
     return formula::BoundCode<R>(code_, [](int) { return R(0); });

@@ -55,7 +55,7 @@ struct FormulaTexts {
   std::vector<std::pair<std::string, std::string>>
       invariants{};                        // name, formula of coordinates, momenta, parameters, t
   std::vector<std::string> constraints{};  // g(q) = 0
-  std::string constraint_form{};           // with constraints "manifold", which empty stands for, or "multiplier"
+  std::string constraint_form{};           // with constraints: "manifold" (or empty) or "multiplier"
 };
 
 /// The error of a typed text, and the text at fault: "hamiltonian", "coordinates[1]", "invariants.L", "parameters.k".
@@ -77,7 +77,7 @@ struct CentralUse {
 /// The choices of a typed problem, after checking that every text can be parsed and differentiated.
 /// @throws FormulaError
 Choices formula_choices(const FormulaTexts& texts);
-/// The same for `central-force` with potential = "formula": V of r and the parameters.
+/// Returns the choices of `central-force` with potential = "formula", from V(r) and the parameters.
 /// @param coordinates "cartesian" or "polar"
 /// @param use for another owner, such as the pair law of a gas @throws FormulaError
 Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates,

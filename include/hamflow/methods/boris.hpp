@@ -1,7 +1,6 @@
 // The Boris step for a charge in a uniform magnetic field: half a drift, a rotation of the velocity about the field,
 // half a drift.   [Boris1970; BirdsallLangdon1985, Sect. 4-4]
-//     x <- x + h v/2,   v <- rotated by v' = v + v x t, v <- v + v' x s, t = (h/2) omega, s = 2 t/(1 + t^2),   x <- x +
-//     h v/2
+//     x <- x + h v/2,   v' = v + v x t,   v <- v + v' x s,   x <- x + h v/2,   t = (h/2) omega, s = 2 t/(1 + t^2),
 // omega = charge field/mass. |v|, hence the energy, is conserved to rounding. In general the map preserves volume and
 // is not symplectic [QinEtAl2013]; in a uniform field, the only case here, it is symplectic, as measured. Order 2,
 // symmetric. Reversing the canonical momenta reverses neither the method nor the motion; the field must be reversed,

@@ -105,7 +105,7 @@ class ForceGradientStep {
   void mirror_kept(std::size_t i) {
     if (i < force_.size()) force_[i] = -force_[i];
   }
-  /// To be called after the state was changed from outside.
+  /// Call this after the state was changed from outside.
   void invalidate() { force_is_current_ = false; }
   /// Sets the number of threads for the forces; the bits do not depend on it.
   void use_threads(std::size_t count) requires sums_integers { sums_.use_threads(count); }

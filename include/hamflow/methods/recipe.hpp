@@ -1,11 +1,13 @@
 // **MethodRecipe**: the object by which a user chooses a method. It makes a stepper for a problem and an arithmetic.
 //     struct Verlet {
-//       static constexpr bool implicit = false;    // whether a step solves equations
-//       static constexpr bool bijective = true;    // whether every action of a step is one-to-one on a lattice
+//       static constexpr bool implicit = false;        // whether a step solves equations
+//       static constexpr bool bijective = true;        // whether every action of a step is one-to-one on a lattice
 //       template <class P>
-//       static constexpr bool accepts = Separable<P>;            // whether the problem has the capabilities that the
-//       method needs template <class P, class A> using Stepper = VerletStep<P, A>;                        // info,
-//       step, effort, invalidate, archive template <class P, class A> Stepper<P, A> bind(const P& problem) const;
+//       static constexpr bool accepts = Separable<P>;  // whether the problem has the capabilities that it needs
+//       template <class P, class A>
+//       using Stepper = VerletStep<P, A>;              // has info, step, effort, invalidate, archive
+//       template <class P, class A>
+//       Stepper<P, A> bind(const P& problem) const;
 //     };
 // It may declare `compensated` (always adds increments with compensation; the default for implicit methods), `typed`
 // (compiled in double for every problem of the catalogue, for methods whose own work dominates a step; by default it

@@ -32,7 +32,7 @@ enum class Shape {
   any                // one of these, known at run time
 };
 
-/// @param ends_alike the first and the last action have the same coefficient
+/// @param ends_alike whether the first and the last action have the same coefficient
 constexpr Shape shape_of(bool kick_first, bool kick_last, bool ends_alike) {
   if (!kick_first) return kick_last ? Shape::drift_kick : Shape::drift_kick_drift;
   if (!kick_last) return Shape::kick_drift;
@@ -117,7 +117,7 @@ inline MethodInfo describe(const SplittingTable& table) {
 
 inline constexpr int any_length = 0;
 
-/// The type of the step length: a plain number, or A::Length if steps of any length are recorded.
+/// The type of the step size: a plain number, or A::Length if steps of any length are recorded.
 template <class A>
 struct StepLengthOf {
   using type = base_scalar<typename A::Real>;
@@ -226,7 +226,7 @@ class Splitting {
     return Outcome::done;
   }
 
-  /// To be called if steps vary in length: the force is then kept without the factor, which differs from step to step.
+  /// Call this if steps vary in length: the force is then kept without the factor, which differs from step to step.
   void take_any_steps() { force_takes_factor_ = velocity_takes_factor_ = false; }
 
   /// Computes the kick with which the next step begins, if it is kept.
@@ -245,7 +245,7 @@ class Splitting {
   void mirror_kept(std::size_t i) {
     if (i < kick_.size()) kick_[i] = -kick_[i];
   }
-  /// To be called after the state was changed from outside. It clears the kept force, so that saved bytes do not depend
+  /// Call this after the state was changed from outside. It clears the kept force, so that saved bytes do not depend
   /// on the history.
   void invalidate() {
     kick_is_current_ = false;

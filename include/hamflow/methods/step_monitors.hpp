@@ -1,4 +1,4 @@
-// Monitors: functions that give the step length up to a factor (detail/methods/step_density.hpp).
+// Monitors: functions that give the step size up to a factor (detail/methods/step_density.hpp).
 //     simulation.vary_steps(arclength_monitor(problem));
 #pragma once
 

@@ -50,9 +50,9 @@ constexpr bool adds_up_to_one(double kicks, double drifts) {
 
 /// Advice about a table for `list methods` and `show`, in addition to the advice for all tables of its kind.
 struct TableAdvice {
-  std::string_view purpose{};  // what it is for, if it is one of the methods recommended first
+  std::string_view purpose{};  // its use, if it is one of the methods recommended first
   std::string_view take{};     // when to use it
-  std::string_view avoid{};    // when not to use it, and what is better then
+  std::string_view avoid{};    // when not to use it, and a better choice
 };
 
 /// Psi_h = StV(gamma_s h) o ... o StV(gamma_1 h), gamma palindromic, StV the Stoermer-Verlet step.

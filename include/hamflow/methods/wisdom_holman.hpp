@@ -1,15 +1,16 @@
-// The Wisdom-Holman map in Jacobi coordinates: H = A + B, A the Kepler motions about the centre of mass of the bodies
-// before, B the interaction, which is smaller by the masses of the planets.   [WisdomHolman1991]
+// The Wisdom-Holman map in Jacobi coordinates, H = A + B. A has the Kepler motion of each body about the centre of mass
+// of the bodies before it. B is the interaction, which is smaller by the ratio of planet to star masses.
+// [WisdomHolman1991]
 //
-// r'_i is the position of body i from the centre of mass of the bodies before it; M_i = m_0 + ... + m_i:
+// With the position r'_i of body i relative to the centre of mass of the bodies before it, and M_i = m_0 + ... + m_i,
 //     A = P^2/(2 M) + sum_i (p'_i^2/(2 m'_i) - G m_i M_(i-1)/r'_i),   m'_i = m_i M_(i-1)/M_i,
 //     B = sum_(i >= 1) G m_i M_(i-1)/r'_i - sum_(i < j) G m_i m_j/r_ij.
-// In A body i moves on a conic about mu = G M_i. In B the pair of the first two bodies cancels exactly. Massless bodies
-// are placed from the centre of mass of all others, and pull nobody.
+// In A body i moves on a conic with mu = G M_i. In B the terms of the first two bodies cancel exactly. Massless bodies
+// are relative to the centre of mass of all others, and exert no force.
 //
-// A step of dt is A(dt/2) B(dt) A(dt/2). With the lazy kernel the forces of B are those at r + (dt^2/12) a, a the
-// acceleration of B: together with a corrector that removes the error proportional to the square of the planets' masses
-// at the lowest order in dt.   [WisdomEtAl1996; ReinEtAl2019] The corrector is a change of variables that removes the
+// A step of dt is A(dt/2) B(dt) A(dt/2). With the lazy kernel the forces of B are evaluated at r + (dt^2/12) a, where a
+// is the acceleration of B. Together with a corrector this removes the error quadratic in the masses of the planets, at
+// the lowest order in dt.   [WisdomEtAl1996; ReinEtAl2019] The corrector is a change of variables that removes the
 // error linear in these masses.   [Wisdom2006]
 #pragma once
 
@@ -30,7 +31,7 @@ enum class WisdomHolmanKernel { standard, lazy };
 /// @param stages from 1 to 8
 template <class R>
 std::vector<R> corrector_weights(std::size_t stages) {
-  // With w_k = k b_k the matrix is Vandermonde's of the squares k^2, which is solved without loss of digits.
+  // For w_k = k b_k the matrix is a Vandermonde matrix of the squares k^2, which is solved without loss of digits.
   // [BjorckPereyra1970]
   constexpr int numerator[8] = {1, -1, 1, -1, 5, -691, 7, -3617};  // B_2, B_4, ...
   constexpr int denominator[8] = {6, 30, 42, 30, 66, 2730, 6, 510};
@@ -93,8 +94,8 @@ class JacobiSplitting {
     }
   }
 
-  /// Of positions; and, as the map is linear, of velocities and accelerations. In the order of the bodies, the centre
-  /// of mass in the place of the first massive one.
+  /// Returns Jacobi coordinates of positions or, because the map is linear, of velocities or accelerations. They are in
+  /// the order of the bodies; the first massive body is replaced by the centre of mass.
   Spaces jacobi_of(const Spaces& inertial) const {
     Spaces out;
     jacobi_of(inertial, out);
@@ -141,7 +142,7 @@ class JacobiSplitting {
     return {jacobi_of(positions), jacobi_of(velocities), none, none};
   }
 
-  /// A over a time h. The state is changed in part where the outcome is not `done`.
+  /// Applies A over a time h. The state is only partly changed if the outcome is not `done`.
   Outcome drift(JacobiState<R>& state, const R& h) const {
     const std::size_t first = massive_[0];
     for (std::size_t k = 0; k < 3; ++k) add(state.r[first][k], state.added_r[first][k], h * state.v[first][k]);

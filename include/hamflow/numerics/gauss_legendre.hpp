@@ -23,7 +23,7 @@ struct GaussRule {
 inline constexpr int most_gauss_points = 64;
 
 namespace detail {
-/// Newton on the Legendre polynomial P_s, x in (-1, 1), from the Chebyshev-like first guess of Tricomi.
+/// Newton on the Legendre polynomial P_s, x in (-1, 1), from the Chebyshev-like initial guess of Tricomi.
 template <class R>
 GaussRule<R> make_gauss_rule(int s) {
   const auto count = static_cast<std::size_t>(s);

@@ -1,9 +1,9 @@
-// Orbital elements of a state: of any conic, with the digits that the state has.
+// Orbital elements of a state, for any conic, with the full accuracy of the state.
 //
-// Angles are arc tangents of two components and never arc cosines, which lose half of the digits near 0 and pi. The
-// longitudes are sums in which what is undefined on a circle or in the plane cancels, rounding included. Near the
-// parabola everything follows from pericentre distance, beta = mu/a and 1 - e = beta q/mu; 1 - e is never the
-// difference of two numbers.   [Danby1988, ch. 6]
+// Angles are arc tangents of two components, never arc cosines, which lose half of the digits near 0 and pi. Longitudes
+// are sums of angles that may be undefined on a circle or in the plane; the undefined parts cancel, with their
+// rounding. Near the parabola, elements follow from pericentre distance, beta = mu/a and 1 - e = beta q/mu, so that 1 -
+// e is never computed as a difference.   [Danby1988, ch. 6]
 #pragma once
 
 #include "hamflow/core/vector.hpp"
@@ -38,8 +38,9 @@ void arc_tangents(const R (&y)[6], const R (&x)[6], R (&angle)[6]) {
   for (int i = 0; i < 6; ++i) angle[i] = atan2(y[i], x[i]);
 }
 
-/// To 2 units in the last place, 0 for (0, 0): two at a time and without a branch, in a fifth of the time of the C
-/// library. The polynomial is the Chebyshev expansion of (atan(t)/t - 1)/t^2 on [0, tan(pi/8)]; its error is 2^-57.
+/// Computes six arc tangents with an error of at most 2 units in the last place; 0 for (0, 0). It processes two at a
+/// time without branches, in a fifth of the time of the C library. The polynomial is the Chebyshev expansion of
+/// (atan(t)/t - 1)/t^2 on [0, tan(pi/8)]; its error is 2^-57.
 inline void arc_tangents(const double (&y)[6], const double (&x)[6], double (&angle)[6]) {
   constexpr double c[11] = {-0.3333333333333333016,   0.19999999999995520674,  -0.14285714284666542061,
                             0.11111111015256292406,   -0.090909045781210852,   0.076921831907606508702,
@@ -80,7 +81,7 @@ inline void arc_tangents(const double (&y)[6], const double (&x)[6], double (&an
   }
 }
 
-/// In [0, 2 pi), of an angle between -4 pi and 4 pi.
+/// Maps an angle between -4 pi and 4 pi to [0, 2 pi).
 template <class R>
 R in_one_turn(R angle) {
   const R turn = full_turn<R>();
@@ -122,7 +123,7 @@ OrbitalElements<R> elements_of(const Vector<R, 3>& r, const Vector<R, 3>& v, con
   const bool is_tilted = zero < square_in_plane;
   const R node_x = is_tilted ? -hy : one;
   const R node_y = is_tilted ? hx : zero;
-  // From the node to the body.
+  // The components along and across the direction of the node.
   const R along = (r[0] * node_x + r[1] * node_y) * h;
   const R across = (r[1] * node_x - r[0] * node_y) * hz + r[2] * square_in_plane;
 

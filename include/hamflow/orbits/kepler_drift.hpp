@@ -1,12 +1,12 @@
 // The Kepler drift: the motion of two bodies, r'' = -mu r/|r|^3, over any time, on any conic.
 //
-// It returns what is added to r and v. With f - 1 = -mu G2/r0, g = t - mu G3, f' = -mu G1/(r0 r), g' - 1 = -mu G2/r,
+// It returns increments of r and v. With f - 1 = -mu G2/r0, g = t - mu G3, f' = -mu G1/(r0 r), g' - 1 = -mu G2/r,
 //     dr = (f - 1) r + g v,   dv = f' r + (g' - 1) v,                                         [Danby1988, Sect. 6.9]
-// the increments of a short drift have all their digits, which compensated sums and the lattice keep.
+// the increments of a short drift have full relative accuracy, which compensated sums and the lattice preserve.
 //
-// In double a short step, below a twelfth of a period or so, takes one straight path of few operations. Everything else
-// is computed in long double: r0, eta and beta are then as exact as r and v themselves, which matters near the
-// parabola, where beta is a small difference, and over many periods, where its error is multiplied.
+// In double a short step, below about a twelfth of a period, takes a fast path with few operations and no iteration.
+// Everything else is computed in long double. Then r0, eta and beta are as exact as r and v, which matters near the
+// parabola, where beta is a small difference, and over many periods, which multiply its error.
 #pragma once
 
 #include "hamflow/core/outcome.hpp"
@@ -15,8 +15,8 @@
 
 namespace hamflow {
 
-/// What a drift adds to position and velocity. The rests are what the rounding of the increments to R has lost, where
-/// that is known and matters: after a long drift that ends much nearer to the centre than it began.
+/// The increments of position and velocity in a drift. The rests are the rounding errors of the increments in R. They
+/// are set only if they are known and matter: after a long drift that ends much nearer to the centre than it began.
 template <class R, std::size_t N>
 struct KeplerIncrements {
   Vector<R, N> position;
@@ -71,10 +71,10 @@ struct DriftInParts {
   }
 };
 
-/// For t > 0. Inbound on a hyperbola at r0 >> mu/|beta|, the terms of Kepler's equation grow like exp(y), y = s
-/// sqrt(-beta), while r decreases like exp(-y) until the pericentre, at y_p: their sum would lose exp(y_p) more than
-/// the motion itself magnifies. So the way in is gone in parts of y = 1 until y_p < 1.44. beta is that of the start
-/// throughout: near the pericentre it would be a small difference.
+/// Drifts for t > 0. Inbound on a hyperbola at r0 >> mu/|beta|, the terms of Kepler's equation grow like exp(y) with
+/// y = s sqrt(-beta), while r decreases like exp(-y) until the pericentre at y_p. Their sum would lose a factor
+/// exp(y_p) more accuracy than the motion itself. The inbound part is therefore divided into parts of y = 1 until y_p
+/// < 1.44. beta is always taken from the start, because near the pericentre it would be a small difference.
 template <class R, std::size_t N>
 bool drift_forward(DriftInParts<R, N>& body, const R& mu, const R& beta, R t) {
   for (;;) {
@@ -199,7 +199,7 @@ struct ShortKeplerStep {
   }
 };
 
-/// False where the step is not short, and for numbers that are none.
+/// Returns false if the step is not short, or if a number is NaN.
 template <std::size_t N>
 bool short_drift(const Vector<double, N>& r, const Vector<double, N>& v, double mu, double t,
                  KeplerIncrements<double, N>& out) {
@@ -233,10 +233,10 @@ bool short_drift(const Vector<double, N>& r, const Vector<double, N>& v, double 
 
 }  // namespace detail
 
-/// Advances r and v by `t`, of either sign, under the attraction mu = G m >= 0: writes what is to be added to them.
-/// Double: right to 4 units in the last place of the largest component of position and of velocity, or to what one unit
-/// of the inputs changes where the motion magnifies that. Types with more digits: likewise, 64 units.
-/// @returns not_converged where there is no such state: at a collision, or for inputs that are not finite or overflow
+/// Computes the increments of r and v over a time `t` of either sign, for mu = G m >= 0. In double the error is at most
+/// 4 units in the last place of the largest component of position and of velocity, or the effect of one unit in the
+/// inputs if that is larger. For types with more digits it is 64 units.
+/// @returns not_converged if there is no such state: at a collision, or for inputs that are not finite or overflow
 template <class R, std::size_t N>
 Outcome kepler_drift(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu, const R& t,
                      KeplerIncrements<R, N>& out) {
@@ -259,7 +259,7 @@ Outcome kepler_drift(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu, 
   return Outcome::done;
 }
 
-/// Moves r and v. They are left as they were where the outcome is not `done`.
+/// Advances r and v. They are unchanged if the outcome is not `done`.
 template <class R, std::size_t N>
 Outcome advance_on_conic(Vector<R, N>& r, Vector<R, N>& v, const R& mu, const R& t) {
   KeplerIncrements<R, N> add;

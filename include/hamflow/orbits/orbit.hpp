@@ -1,5 +1,5 @@
-// An orbit as people give it: a size, a shape, three angles, and a place on it. Here it becomes position and velocity,
-// or the list of what is wrong with it.
+// An orbit given by elements: a size, a shape, three angles, and a place on it. These functions convert it to position
+// and velocity, or list its errors.
 #pragma once
 
 #include <optional>
@@ -41,12 +41,12 @@ struct OrbitState {
   Vector<R, 3> velocity;
 };
 
-/// What is wrong with an orbit, each with the key that is concerned. Empty: nothing.
+/// Returns the errors of an orbit, each with its key; empty if there are none.
 std::vector<Complaint> complaints_about(const Orbit<double>& orbit);
 
 namespace detail {
 
-/// From the pericentre, with pericentre distance and mu equal to 1 and beta = 1 - e.
+/// The motion from the pericentre, in units in which pericentre distance and mu are 1, so that beta = 1 - e.
 template <class R>
 UniversalStart<R> unit_pericentre(const R& e) {
   return {R(1), R(0), R(1), R(1) - e};
@@ -59,7 +59,8 @@ R cube_root(const R& x) {
   return guess - (guess - x / (guess * guess)) / R(3);
 }
 
-/// In the plane of the orbit, x towards the pericentre: distances by q, velocities by sqrt(mu/q).
+/// A state in the plane of the orbit, with x towards the pericentre, distances in units of q and velocities in units of
+/// sqrt(mu/q).
 template <class R>
 struct PlaceOnConic {
   R x;
@@ -111,11 +112,11 @@ R nearest_turn_removed(const R& angle) {
 
 }  // namespace detail
 
-/// The state of a body on an orbit about mu = G m > 0, at time `t`. The orbit is one without complaints.
-/// @returns nothing where position or velocity is not finite in R
+/// Returns the state of a body on an orbit with mu = G m > 0 at time `t`. complaints_about() has to be empty for it.
+/// @returns nullopt if position or velocity is not finite in R
 template <class R>
 std::optional<OrbitState<R>> state_on(const Orbit<R>& orbit, const R& mu, const R& t = R(0)) {
-  using C = typename CarefulNumber<R>::type;  // double: 1 - e, sums of angles and Kepler's equation lose nothing
+  using C = typename CarefulNumber<R>::type;  // for double, avoids rounding of 1 - e, angles, Kepler's equation
   const auto careful = [](const R& x) { return C(x); };
   const C e = careful(orbit.e);
   const C gap = C(1) - e;

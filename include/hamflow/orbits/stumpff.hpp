@@ -1,7 +1,7 @@
 // The functions of universal variables: G_k(s) = s^k c_k(beta s^2), k = 0..3, with Stumpff's
 //     c_k(x) = 1/k! - x/(k + 2)! + x^2/(k + 4)! - ...,                                        [Danby1988, Sect. 6.9]
 // dG_k/ds = G_(k-1), dG_0/ds = -beta G_1. They are smooth in beta: one set of formulas holds for ellipses (beta > 0),
-// parabolas and hyperbolas, and nothing is lost near the parabola.
+// parabolas and hyperbolas, without loss of accuracy near the parabola.
 #pragma once
 
 #include <limits>
@@ -23,7 +23,7 @@ struct UniversalFunctions {
 
 namespace detail {
 
-/// 2 pi, read once where the digits are fixed.
+/// 2 pi. It is computed only once for types with a fixed number of digits.
 template <class R>
 R full_turn() {
   if constexpr (std::numeric_limits<R>::digits > 0) {
@@ -34,7 +34,7 @@ R full_turn() {
   }
 }
 
-/// 1/2!, 1/3!, ..., as many as the series of c_2 and c_3 need for |x| <= 1.
+/// 1/2!, 1/3!, ...: the coefficients that the series of c_2 and c_3 need for |x| <= 1.
 template <class R>
 std::vector<R> inverse_factorials() {
   std::vector<R> found;

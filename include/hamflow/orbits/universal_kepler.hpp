@@ -80,7 +80,7 @@ R bound_of_root(const UniversalStart<R>& start, const R& t) {
     const R y = R(1) < sine ? inverse_sinh(sine) : sine;
     return y < root * s ? R(y / root) : s;
   };
-  // From the pericentre or after it, mu G3 <= t, and G3 >= s^3/6; (sinh y - y)/root^3 on a hyperbola.
+  // At or after the pericentre mu G3 <= t. G3 >= s^3/6, or (sinh y - y)/root^3 on a hyperbola, then bounds s.
   R s = pow(R(6) * t / start.mu, R(1) / R(3)) * beyond;
   s = below_sinh(s, root * (-start.beta * t / start.mu + s));
   if (start.eta < R(0)) {  // to the pericentre: sinh y = root |eta|/(mu e), e >= 1
@@ -106,9 +106,9 @@ struct CoarseNumber<long double> {
   using type = double;
 };
 
-/// The root for t >= 0, as the functions at it. Ellipses: t at most a period. Laguerre's method within a bracket,
-/// bisection where it would leave it.   [Danby1988, ch. 6]
-/// @returns false where no root is found, for inputs that are not finite; never an inexact root
+/// Finds the root of Kepler's equation for t >= 0, and the functions there. On an ellipse, t is at most a period. It
+/// uses Laguerre's method within a bracket, and bisection if a step would leave the bracket.   [Danby1988, ch. 6]
+/// @returns false if no root is found, for inputs that are not finite; it never returns an inexact root
 template <class R>
 bool solve_universal_kepler(const UniversalStart<R>& start, const R& t, R& s, UniversalTime<R>& found) {
   const R epsilon = std::numeric_limits<R>::epsilon();

@@ -14,25 +14,26 @@
 
 namespace hamflow {
 
-/// lambda from a geometric start in k/2 (x^2 - lambda)^2, which begins at rest at r0. E = k lambda_inf^2/2.
+/// lambda from a geometric start at rest at r0, for V = k/2 (x^2 - lambda)^2. E = k lambda_inf^2/2.
 template <class R>
 struct DuffingCase {
   R lambda;
   R lambda_inf;
 };
-/// Through the centre, with `speed` there: (2.201), (2.197).
+/// Case 1: the motion passes the centre with `speed`, (2.201), (2.197).
 template <class R>
 DuffingCase<R> duffing_case1(R mass, R k, R r0, R speed) {
   const R ratio = speed / r0;
   const R lambda_inf = mass / (R(2) * k) * ratio * ratio + r0 * r0 / R(2);
   return {r0 * r0 - lambda_inf, lambda_inf};
 }
-/// Into the centre after an infinite time: (2.205).
+/// Case 2: the motion reaches the centre after an infinite time, (2.205).
 template <class R>
 DuffingCase<R> duffing_case2(R r0) {
   return {r0 * r0 / R(2), r0 * r0 / R(2)};
 }
-/// On one side, r0 the outer turning point, `speed` the largest one, at x^2 = lambda <= r0^2: (2.215), (2.209).
+/// Case 3: the motion stays on one side. r0 is the outer turning point, and `speed` the largest speed, which is reached
+/// at x^2 = lambda <= r0^2, (2.215), (2.209).
 template <class R>
 DuffingCase<R> duffing_case3(R mass, R k, R r0, R speed) {
   const R lambda_inf = sqrt(mass / k) * speed;
@@ -44,14 +45,14 @@ class Duffing : public OneDimensional<R> {
  public:
   explicit Duffing(R mass = R(1), R alpha = R(-1), R beta = R(1), R gamma = R(0))
       : OneDimensional<R>(R(1) / mass), alpha_(alpha), beta_(beta), gamma_(gamma) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit Duffing(const Duffing<Q>& other)
       : OneDimensional<R>(R(other.inverse_mass())),
         alpha_(R(other.alpha_)),
         beta_(R(other.beta_)),
         gamma_(R(other.gamma_)) {}
-  /// From alpha and beta, or else from k and lambda.
+  /// Takes alpha and beta if they are given, else k and lambda.
   explicit Duffing(const Parameters<R>& given) : Duffing(given["mass"]) {
     if (given.has("alpha") || given.has("beta")) {
       alpha_ = value_or(given, "alpha", R(0));
@@ -97,7 +98,7 @@ class Duffing : public OneDimensional<R> {
             .region = {.parameters = {{"alpha", "-1"}, {"beta", "1"}}, .centre = {1.3, 0.4}}};
   }
 
-  /// The allowed combinations if these parameters cannot be combined. lambda from a case counts as given.
+  /// Returns the allowed combinations if the given parameters cannot be combined. lambda from a case counts as given.
   static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
     const bool stiffnesses = given.has("alpha") && given.has("beta");
     const bool binomial = given.has("k") && given.has("lambda");
@@ -122,7 +123,7 @@ class Duffing : public OneDimensional<R> {
     out[0][0] = q[0] * q[0] * (R(3) * beta_) + alpha_;
   }
 
-  /// lambda of the cases.
+  /// Sets lambda for the cases.
   static void derive(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
     if (kind == "case2") {
       given.set("lambda", duffing_case2(orbit["r0"]).lambda);
@@ -131,7 +132,7 @@ class Duffing : public OneDimensional<R> {
       given.set("lambda", lambda(given["mass"], given["k"], orbit["r0"], orbit["speed"]).lambda);
     }
   }
-  /// At rest at r0. (2.194) with E = V(r0)
+  /// Returns the start at rest at r0, (2.194) with E = V(r0).
   static Start<R, 1> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
                            Conditions& conditions) {
     const R r0 = orbit["r0"];

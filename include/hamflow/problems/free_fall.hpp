@@ -14,7 +14,7 @@ class FreeFall : public OneDimensional<R> {
  public:
   explicit FreeFall(R mass = R(1), R gravity = R(1)) : OneDimensional<R>(R(1) / mass), weight_(mass * gravity) {}
   explicit FreeFall(const Parameters<R>& given) : FreeFall(given["mass"], given["gravity"]) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit FreeFall(const FreeFall<Q>& other) : OneDimensional<R>(R(other.inverse_mass())), weight_(R(other.weight_)) {}
 

@@ -15,7 +15,7 @@ class Harmonic : public OneDimensional<R> {
  public:
   explicit Harmonic(R mass = R(1), R omega = R(1)) : OneDimensional<R>(R(1) / mass), stiffness_(mass * omega * omega) {}
   explicit Harmonic(const Parameters<R>& given) : Harmonic(given["mass"], given["omega"]) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit Harmonic(const Harmonic<Q>& other)
       : OneDimensional<R>(R(other.inverse_mass())), stiffness_(R(other.stiffness_)) {}

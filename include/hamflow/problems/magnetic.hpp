@@ -26,7 +26,7 @@ class Magnetic {
 
   /// @param strength charge times field
   Magnetic(R mass, Vector<R, 3> strength) : mass_(mass), strength_(strength) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit Magnetic(const Magnetic<Q>& other)
       : Magnetic(R(other.mass_), {R(other.strength_[0]), R(other.strength_[1]), R(other.strength_[2])}) {}

@@ -19,7 +19,7 @@ class Pendulum : public OneDimensional<R> {
   explicit Pendulum(R mass = R(1), R length = R(1), R gravity = R(1))
       : OneDimensional<R>(R(1) / (mass * length * length)), torque_(mass * gravity * length) {}
   explicit Pendulum(const Parameters<R>& given) : Pendulum(given["mass"], given["length"], given["gravity"]) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit Pendulum(const Pendulum<Q>& other) : OneDimensional<R>(R(other.inverse_mass())), torque_(R(other.torque_)) {}
 

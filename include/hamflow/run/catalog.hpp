@@ -1,5 +1,5 @@
-// **Catalog**: names to types. `make_simulation(request)` turns names and texts into a typed simulation behind the
-// type-erased interface; the lists serve the command, the documentation and the tests.
+// **Catalog**: maps names to types. `make_simulation(request)` makes a typed simulation from names and texts, behind
+// the type-erased interface. The command, the documentation and the tests use the lists.
 #pragma once
 
 #include <functional>
@@ -102,11 +102,11 @@ struct ProblemEntry {
   std::string container{};
   std::function<ParticleFacts(const Texts& parameters)> particles{};
   bool has_cutoff = false;    // forces of pairs end at a distance
-  bool has_distance = false;  // a distance from a centre or between bodies can control the step length
+  bool has_distance = false;  // a distance from a centre or between bodies can control the step size
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The simulation behind virtual calls, for arithmetics beyond double and methods without a typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
-  /// The same in double from numbers, for the lanes of ensembles; uses only the method of the request.
+  /// The simulation in double, from numbers, for the lanes of ensembles. It uses only the method of the request.
   std::function<std::unique_ptr<Simulation>(const Request&, const Parameters<double>&, const std::vector<double>& q,
                                             const std::vector<double>& p, double h)>
       simulate_member;

@@ -1,5 +1,5 @@
 // **Ensemble**: many members of one problem and one method, one in each SIMD lane. Members differ in start, parameters
-// and step length. Every lane has the bits of a separate run of its member.
+// and step size. Every lane has the bits of a separate run of its member.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ LaneSet widest_lanes();
 /// The names of the members' parameters, and the count of numbers of each.
 using ParameterShape = std::vector<std::pair<std::string, std::size_t>>;
 
-/// A member as input of a lane: canonical start, parameters in the order of their shape, step length.
+/// A member as input of a lane: canonical start, parameters in the order of their shape, step size.
 struct MemberStart {
   std::vector<double> q;
   std::vector<double> p;
@@ -72,10 +72,10 @@ class EnsembleBlock {
   virtual const double* numbers(std::size_t k) const = 0;
   /// The member before the last take_step(); valid until the next call.
   virtual const Simulation& before_step(std::size_t lane) = 0;
-  /// To be called before the first step: prepares for the given number of tangent vectors per lane. Returns false if
+  /// Call this before the first step: prepares for the given number of tangent vectors per lane. Returns false if
   /// they cannot run in lanes.
   virtual bool expect_tangents(std::size_t vectors) = 0;
-  /// To be called before the first step: from now on sums the values of expressions after each step, the same number in
+  /// Call this before the first step: from now on sums the values of expressions after each step, the same number in
   /// each lane. Returns false if this block does not support it.
   virtual bool expect_sums(std::span<const std::span<const NamedExpression>> /*of_lanes*/) { return false; }
   /// The sums over the steps of a lane.

@@ -62,7 +62,7 @@ class SectionSearch {
   }
   /// Whether a step may have more zeros than the signs at its ends show, that is, whether these are possible with four
   /// times the second derivative estimated from the last two differences of x. True if there is no earlier difference.
-  /// To be called once for every step, in order. @param bounced the step has bounces, so that its difference predicts
+  /// Call this once for every step, in order. @param bounced the step has bounces, so that its difference predicts
   /// nothing
   bool may_hide_zeros(double before, double now, bool bounced = false);
   /// For a map: records the state after a step, if it is a point.

@@ -59,12 +59,12 @@ struct Excursion {
   double scale() const { return scale_at_start < exchanged ? exchanged : scale_at_start; }
 };
 
-/// The same for an invariant, with a number for each component. max_error is the length of the deviation.
+/// The range of an invariant, with a number for each component. max_error is the length of the deviation.
 struct InvariantExcursion {
   std::vector<double> initial;
   std::vector<double> final;
   double max_error = 0;
-  // The same with all digits, in arithmetics beyond double; else empty.
+  // The values with all digits, in arithmetics beyond double; else empty.
   std::vector<std::string> initial_digits{};
   std::vector<std::string> final_digits{};
   std::string max_error_digits{};
@@ -104,7 +104,7 @@ class Simulation {
   virtual void look(Frame& frame) const = 0;
   /// h <- -h. The state does not change.
   virtual void reverse_time() = 0;
-  /// p <- -p. The step length does not change.
+  /// p <- -p. The step size does not change.
   virtual void negate_momenta() = 0;
   /// The stored bits of q and p, for tests of exact reversal.
   virtual std::vector<std::byte> bits() const = 0;
@@ -113,7 +113,7 @@ class Simulation {
   double energy_scale() const { return energy().scale(); }
   /// Restarts the range of energies that look() shows, from the present state on.
   virtual void restart_energy_range() = 0;
-  /// In the order of the problem's invariants.
+  /// The ranges of the invariants, in the order of the problem.
   virtual std::vector<InvariantExcursion> invariants() const = 0;
   /// nullopt if there are no constraints.
   virtual std::optional<ConstraintResiduals> constraints() const { return {}; }
@@ -130,8 +130,8 @@ class Simulation {
   /// Calls `told` for every later bounce, in order, when its step is done. Copies do not call it.
   virtual void tell_bounces(std::function<void(const Bounce&)> /*told*/) {}
 
-  /// From now on advance() adds the values of expressions after each step to sums, with the result of an observer of
-  /// every step (detail/run/step_sums.hpp), but faster. An empty list ends this. Copies do not add.
+  /// After this call, advance() adds the values of expressions after each step to sums. This gives the same result as
+  /// an observer of every step (detail/run/step_sums.hpp), but faster. An empty list ends it. Copies do not add.
   /// @return false if this simulation does not support it
   virtual bool add_to_sums(std::span<const NamedExpression> /*summed*/, std::span<StepSum> /*sums*/) { return false; }
 
@@ -147,8 +147,8 @@ class Simulation {
   /// that differs from t_n only by rounding is t_n.
   /// @param time a number expression, read in the arithmetic of the simulation
   virtual Outcome look_ahead(const std::string& time, Frame& frame) const = 0;
-  /// The same after the part theta of a step, theta in [0, 1], so that events within a step are located to the rounding
-  /// of theta h, not of the time.
+  /// Shows the state after the part theta of a step, theta in [0, 1], so that events within a step are located to the
+  /// rounding of theta h instead of that of the time.
   virtual Outcome look_part(double theta, Frame& frame) const = 0;
 };
 

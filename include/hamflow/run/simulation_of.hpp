@@ -46,7 +46,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   using Stepper = M;
   using Watch = Probe;
 
-  /// @param start canonical (q, p)   @param h step length   @param arithmetic e.g. lattice units
+  /// @param start canonical (q, p)   @param h step size   @param arithmetic e.g. lattice units
   SimulationOf(P problem, M method, const Vector<Real, n>& q, const Vector<Real, n>& p, Real h, A arithmetic = {},
                Real t0 = 0)
       : State(std::move(problem), q, p, h, arithmetic, t0), method_(std::move(method)) {}
@@ -258,7 +258,7 @@ using DefaultArithmetic = std::conditional_t<always_compensated<M>(), Compensate
 
 /// A simulation with a typed method, all of which is inlined into one loop.
 ///     auto orbit = hamflow::simulate(problem, Composition<compositions::stv4>{}, {0.4, 0}, {0, 2}, 0.1);
-/// @param q, p canonical start   @param h step length
+/// @param q, p canonical start   @param h step size
 /// @tparam Watch false removes the probe of energy and invariants at every step
 template <bool Watch = true, class P, MethodRecipe Method, class A = DefaultArithmetic<P, Method>>
 auto simulate(const P& problem, const Method& recipe, const Vector<typename A::Real, P::dimension>& q,
@@ -268,7 +268,7 @@ auto simulate(const P& problem, const Method& recipe, const Vector<typename A::R
   return SimulationOf<P, M, A, Probe>(problem, recipe.template bind<P, A>(problem), q, p, h, arithmetic);
 }
 
-/// The same with a start in braces, whose numbers are counted at compile time; a vector would be filled up with zeros.
+/// As above, with a start in braces. Its numbers are counted at compile time; a vector would be filled up with zeros.
 template <bool Watch = true, class P, MethodRecipe Method, std::size_t of_q, std::size_t of_p,
           class A = DefaultArithmetic<P, Method>>
 requires(P::dimension != dynamic) auto simulate(const P& problem, const Method& recipe,

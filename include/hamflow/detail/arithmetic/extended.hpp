@@ -78,7 +78,7 @@ struct IsExtended : std::false_type {};
 template <class T>
 struct IsExtended<Extended<T>> : std::true_type {};
 
-/// All digits of a number, which read back as the same number.
+/// Returns a number as text with enough digits to read back as the same number.
 template <class T>
 std::string written_digits(const Extended<T>& x) {
   return ExtendedTraits<T>::written(x.value);

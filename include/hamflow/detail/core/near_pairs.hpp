@@ -100,7 +100,7 @@ class NearPairs {
   std::size_t workers_ = 0;
   std::vector<double> positions_;
   bool all_ = true;
-  std::vector<std::size_t> begins_;  // where the row of each particle begins
+  std::vector<std::size_t> begins_;  // the index at which the row of each particle begins
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> partners_;
   std::uint64_t lists_ = 0;

@@ -35,7 +35,7 @@ namespace hamflow {
   X(tanh, odd, times(one - y * y), known)
 
 enum class Operation : std::uint8_t {
-  // Of formulas and recordings.
+  // In formulas and recordings.
   number,  // a decimal text; in a recording a constant
   pi,
   symbol,  // a given value: in a formula by name, in a recording an input

@@ -86,7 +86,7 @@ std::vector<std::string> option_names(const std::vector<OptionInfo>& options);
 
 /// The value of a text that refused_value() accepts.
 double number_value(const std::string& text);
-/// The same value; as long double if a double would be 0, subnormal or infinite.
+/// As number_value(), but in long double if a double would be 0, subnormal or infinite.
 long double wide_number_value(const std::string& text);
 
 /// An option that sets members of a struct of options, from a text that refused_value() accepts.

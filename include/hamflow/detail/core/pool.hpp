@@ -70,7 +70,7 @@ struct PoolAllocator {
 
   PoolAllocator() = default;
   template <class U>
-  PoolAllocator(const PoolAllocator<U>&) {}  // NOLINT: an allocator converts to that of another type
+  PoolAllocator(const PoolAllocator<U>&) {}  // NOLINT: allocators for different types convert
 
   T* allocate(std::size_t count) {
     if (count > (std::size_t{1} << 47) / sizeof(T)) throw std::bad_array_new_length();

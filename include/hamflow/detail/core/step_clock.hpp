@@ -45,9 +45,9 @@ TimeWords<R> time_in_words(const R& start, const R& n, const R& step) {
   return {whole, ((start - (whole - part)) + (product - part)) + lost};
 }
 
-/// For H(q, p, t) the last coordinates hold the time: the time since the step began, with t' = 1, and the time at which
-/// the step began. Methods treat them like any coordinate. After every step the clock of the run sets both, so that no
-/// rounding error of the time is carried into the next step: the time of a stage is n h, in two words, plus the
+/// For H(q, p, t) the last two coordinates hold the time: the time since the step began, with t' = 1, and the time at
+/// which the step began. Methods treat them like any coordinate. After every step the clock of the run sets both, so
+/// that no rounding error of the time reaches the next step. The time of a stage is n h, in two words, plus the
 /// increments of earlier stages of the same step, rounded once.
 inline constexpr std::size_t clock_coordinates = 2;
 
@@ -80,12 +80,12 @@ void set_clock(PhasePoint<A, N>& z, const TimeWords<R>& begin, const R& passed =
   z.p[n - 1] = z.arithmetic.momentum.store(R(0));
 }
 
-/// Counts equal steps of length h from t0. Reversing changes the direction, so that the way back has the same times.
+/// Counts equal steps of length h from t0. Reversing changes the direction, so that the steps back have the same times.
 template <class R = double>
 class StepClock {
  public:
   StepClock() = default;
-  /// @param start time of step 0   @param step length h of a step, may be negative
+  /// @param start time of step 0   @param step size h of a step, may be negative
   StepClock(R start, R step) : start_(start), step_(step) {}
 
   R step() const { return step_; }  // in forward direction

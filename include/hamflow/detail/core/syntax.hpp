@@ -46,7 +46,7 @@ struct Syntax {
   [[noreturn]] void refuse_value(const SyntaxPart& part, bool infinite) const;
 };
 
-/// What a text may contain.
+/// The optional parts of the grammar that a text may contain.
 struct SyntaxRules {
   bool only_numbers = false;  // no names, let and sum
   std::size_t characters;

@@ -209,7 +209,7 @@ class Recorder {
     tape_.guards.push_back({node, value, holds, relation});
   }
 
-  /// The tape that computes the outputs and nothing else.
+  /// Returns the tape that computes the outputs, without operations that they do not need.
   Tape<R> finish(const std::vector<Trace<R>>& outputs) {
     for (const Trace<R>& output : outputs) {
       tape_.outputs.push_back(
@@ -253,7 +253,7 @@ class Recorder {
     ++entries_;
     return push(n, value);
   }
-  /// Where the search in the table of known nodes begins.
+  /// The index at which the search in the table of known nodes begins.
   std::size_t place_of(const TapeNode& n, bool companion) const {
     std::uint64_t key =
         (static_cast<std::uint64_t>(n.a) * 1000003U + static_cast<std::uint64_t>(companion ? -1 : n.b)) * 64U +

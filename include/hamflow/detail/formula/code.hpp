@@ -45,7 +45,7 @@ struct Code {
 /// @param fixed which symbols keep their value
 Code code_of(const Graph& graph, std::span<const int> outputs, const std::vector<bool>& fixed);
 
-/// The same for doubles as a program (detail/numerics/program.hpp) that carries the symbols that vary, then the
+/// Converts code for doubles to a program (detail/numerics/program.hpp). It carries the varying symbols, then the
 /// outputs.
 Program program_of(const Code& code, const std::vector<double>& constants);
 

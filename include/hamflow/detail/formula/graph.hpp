@@ -1,5 +1,6 @@
-// **The graph of an expression**: operations as nodes, each once. A node is found again by what it is made of, so that
-// equal parts are one node, numbered in the order in which they were first met: no address decides about an order.
+// **The graph of an expression** has one node for each different operation. Nodes are found by their operation and
+// operands, so that equal parts share a node. They are numbered in the order of their first appearance, so that no
+// order depends on addresses.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct Node {
 
 class Graph {
  public:
-  /// The node with these operands, made if there is none.
+  /// Returns the node with these operands. Makes it if it does not exist.
   int node(Op op, int a = -1, int b = -1);
   /// @param text a decimal number without a sign
   int number(std::string_view text);

@@ -31,7 +31,7 @@ struct ForceAndHessianCode {
 
 class Model {
  public:
-  /// @throws FormulaError where a text is wrong, or its derivatives are too long
+  /// @throws FormulaError if a text is wrong, or if its derivatives are too long
   explicit Model(const FormulaTexts& texts);
   ~Model();
   Model(const Model&) = delete;
@@ -39,13 +39,13 @@ class Model {
 
   /// Coordinates that have names.
   std::size_t size() const { return coordinates_.size(); }
-  /// Degrees of freedom of the functions below. Where H depends on t, two more coordinates carry the time: the time
-  /// since the present step began, with the momentum E, and behind it the time at which that step began, which no
-  /// motion changes (detail/core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) +
-  /// E: along a motion t' = 1 and E' = -dH/dt, so that H + E is conserved: its deviation is H - H(0) - int dH/dt.
-  /// Derivatives are by both coordinates: what a method knows of rounding is a derivative times a coordinate, and late
-  /// in a run the time at which a step began rounds by more than the step is long.
-  /// Separable H stay so if T does not depend on t: kicks are at the time of their stage.
+  /// The degrees of freedom of the functions below. If H depends on t, two more coordinates carry the time: the time
+  /// since the present step began, with the momentum E, and the time at which the step began, which the motion does not
+  /// change (detail/core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) + E.
+  /// Along a trajectory t' = 1 and E' = -dH/dt, so H + E is conserved, and its deviation is H - H(0) - int dH/dt. There
+  /// are derivatives by both coordinates, because methods estimate rounding by a derivative times a coordinate, and
+  /// late in a run the time at which a step began has a rounding error larger than the step. A separable H stays
+  /// separable if T does not depend on t: a kick is evaluated at the time of its stage.
   std::size_t degrees() const { return size() + (structure_.time ? clock_coordinates : 0); }
   const std::vector<std::string>& coordinates() const { return coordinates_; }  // x[1], x[2], ...
   const std::vector<std::string>& momenta() const { return momenta_; }
@@ -56,8 +56,8 @@ class Model {
   /// Coordinates, momenta, t, parameters, in the order of values; known: what indices needed.
   const FormulaSymbols& symbols() const { return symbols_; }
   std::size_t time_symbol() const { return 2 * size(); }
-  /// Behind all others: the symbol of the factor of scaled_force and scaled_velocity, and those of the momenta of both
-  /// coordinates of the time, of which H + E does not contain the second.
+  /// The symbol of the factor of scaled_force and scaled_velocity. It follows all others. After it come the symbols of
+  /// the momenta of both time coordinates; H + E does not contain the second one.
   std::size_t factor_symbol() const { return symbols_.names.size(); }
   std::size_t time_momentum_symbol() const { return symbols_.names.size() + 1; }
   /// The symbols of the i-th coordinate and of its momentum, i < degrees().
@@ -65,7 +65,7 @@ class Model {
   std::size_t momentum_symbol(std::size_t i) const {
     return i < size() ? size() + i : time_momentum_symbol() + (i - size());
   }
-  /// Of a parameter symbol: its name and its place in the list.
+  /// The name of a parameter symbol and its index in the list.
   struct ParameterPlace {
     std::string name;
     std::size_t index;
@@ -77,10 +77,10 @@ class Model {
 
   std::shared_ptr<const Code> energy, kinetic, potential, velocity, force, gradient;  // gradient: dH/dq, then dH/dp
   std::shared_ptr<const Code> invariant_values;
-  /// Of constraints: g; g', row by row, of all degrees(); g''(p, p), with a velocity in place of p.
+  /// For constraints: g; g', row by row, with degrees() columns; g''(p, p), where p stands for a velocity.
   std::shared_ptr<const Code> constraints, constraint_gradients, constraint_curvatures;
-  /// Of a force that is one scalar times the position, as in central fields: factor f, factor v, where the factor meets
-  /// the constants (core/derivatives.hpp); else null.
+  /// factor f and factor v, with the factor multiplied into the constants (core/derivatives.hpp), for a force that is a
+  /// scalar times the position, as in central fields; else null.
   std::shared_ptr<const Code> scaled_force, scaled_velocity;
   /// Second derivatives, made when they are first asked for.
   const HessianCode& hessian() const;

@@ -1,4 +1,4 @@
-// What formulas do to numbers of every type beside their operations (detail/core/operation.hpp).
+// Functions that formulas need for every number type, in addition to the operations (detail/core/operation.hpp).
 #pragma once
 
 #include "hamflow/core/dual.hpp"

@@ -1,11 +1,11 @@
-// What is known of a typed Hamiltonian once it is read.
+// The structure of a typed Hamiltonian, known after it is parsed.
 #pragma once
 
 #include <cstddef>
 
 namespace hamflow {
 
-/// What is found from the expression of a Hamiltonian.
+/// The properties that follow from the expression of a Hamiltonian.
 struct FormulaStructure {
   bool separable = false;          // H = T(p) + V(q)
   bool quadratic_kinetic = false;  // T = p^T M^-1 p/2 with constant M, of the momenta that have names

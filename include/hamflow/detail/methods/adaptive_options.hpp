@@ -12,8 +12,8 @@ namespace hamflow {
 struct AdaptiveOptions {
   long double tolerance = 1e-12;  // beyond the range of a double for more than 300 digits; on the error of a sub-step,
                                   // relative to the size of q and of p, each by itself
-  int order = 0;                  // of taylor; 0: the cheapest for the tolerance
-  bool fixed = false;             // one sub-step per step, whatever its error; used to measure orders
+  int order = 0;                  // the order of taylor; 0: the cheapest for the tolerance
+  bool fixed = false;             // one sub-step per step, without error control; used to measure orders
   int max_substeps = 100000;
 };
 

@@ -1,5 +1,5 @@
 // Reversible steps of varying length: explicit step density control.   [HairerSoederlind2005; HLW2006, Sect. VIII.3.2]
-// rho is the density of steps, their number per time dt. With sigma(z), the wanted step length up to a factor, and G =
+// rho is the density of steps, their number per time dt. With sigma(z), the wanted step size up to a factor, and G =
 // -d/dt ln sigma along the motion,
 //     rho_{n+1/2} = rho_{n-1/2} + dt G(z_n),   h = dt/rho_{n+1/2},   z_{n+1} = Psi_h(z_n),   t_{n+1} = t_n + h
 // so that rho sigma is constant to second order in dt. The density is defined between two steps and changes at their
@@ -20,7 +20,7 @@
 
 namespace hamflow {
 
-/// The function that controls the step length.
+/// The function that controls the step size.
 template <class R, std::size_t N>
 struct StepMonitor {
   std::string name;
@@ -71,7 +71,7 @@ class StepDensity {
     Time::add(time_, h);
     axis_.add(density_, step_ * rate);
   }
-  /// To be called after the momenta were reversed: the next step has the length of the last one. @param rate G of the
+  /// Call this after the momenta were reversed: the next step has the length of the last one. @param rate G of the
   /// new state
   void turn(const Real& rate) { axis_.add(density_, step_ * rate); }
   /// Reverses the time. @param rate G of the state
@@ -85,7 +85,7 @@ class StepDensity {
   }
 
  private:
-  /// On the lattice a step length has 12 digits and may be 2^22 times shorter than the first one.
+  /// On the lattice a step size has 12 digits and may be 2^22 times shorter than the first one.
   static constexpr double lattice_unit = 0x1p-40;
   using Time = typename Compensated<Real>::Axis;
 

@@ -27,7 +27,8 @@ requires(!is_hardware<R>) R determinant_large(const R* m, std::size_t size) {
   return eliminate(m, static_cast<R*>(nullptr), size, 0);
 }
 
-/// The same up to 4 x 4 by Eigen's closed forms, compiled in the same file: b <- m^-1 b, out = m^-1, det m.
+/// Functions for matrices up to 4 x 4 by Eigen's closed forms, compiled in the same file: b <- m^-1 b, out = m^-1, det
+/// m.
 template <class R, std::size_t N>
 void solve_small(const Matrix<R, N>& m, Vector<R, N>& b);
 template <class R, std::size_t N>

@@ -19,7 +19,7 @@ enum class Convergence { quadratic, linear };
 enum class NewtonDecision {
   go_on,      // apply the correction, and compute another one
   settled,    // the error after this correction is at rounding level
-  stalled,    // corrections no longer decrease, but are larger than the estimated rounding: check further, or go on
+  stalled,    // corrections no longer decrease, but are larger than the estimated rounding: check further, or continue
   not_finite  // no solution can be reached from here
 };
 
@@ -51,7 +51,7 @@ class NewtonProgress {
     convergence_ = convergence;
     is_anew_ = true;
   }
-  /// To be called if the last correction settled although the rounding of the terms is as large as the unknowns. As
+  /// Call this if the last correction settled although the rounding of the terms is as large as the unknowns. As
   /// long as the terms decrease, this is not a solution.
   /// @return whether to continue; the next correction is then tested without comparison
   [[gnu::always_inline]] constexpr bool goes_on_with(const Real& terms) {
@@ -89,7 +89,7 @@ class NewtonProgress {
            (rate > Real(0.5) && size <= 64 * noise) || (stalls >= 2 && size <= Real(1 << 12) * noise);
   }
 
-  /// The same for corrections that decrease by a factor theta each time. After a correction c the omitted corrections
+  /// The test for corrections that decrease by a factor theta each time. After a correction c the omitted corrections
   /// sum to theta/(1 - theta) c, with the sign of c. To avoid a drift over many steps this sum must be below
   /// noise/16384, or corrections must no longer decrease, as in a cycle of a few roundings.
   /// [HairerMcLachlanRazakarivony2008] Corrections above the noise count as such a cycle only after twelve in a row
@@ -116,8 +116,8 @@ class NewtonProgress {
   Real hiding_terms_ = Real(0);
 };
 
-/// After a first guess far from the solution, steps begin from the last state until this number of extrapolated guesses
-/// in a row would have been good: the number of points of the extrapolation.
+/// After an initial guess far from the solution, steps begin from the last state until this number of extrapolated
+/// guesses in a row would have been good: the number of points of the extrapolation.
 inline constexpr int good_guesses_needed = 3;
 /// The number needed after another guess. @param wanted the number before it
 constexpr int good_guesses_needed_after(int wanted, bool is_good) { return is_good ? wanted - 1 : good_guesses_needed; }
@@ -130,7 +130,7 @@ template <class Real>
 constexpr bool hidden_by_rounding(const Real& unit, const Real& unknown) {
   return unit > unknown / (1 << 20);
 }
-/// The same for numbers at a distance of `stride`, such as those of one lane.
+/// As above, for numbers at a distance of `stride`, such as those of one lane.
 inline bool hidden_by_rounding(const double* units, const double* unknowns, std::size_t count, std::size_t stride) {
   double unit = 0;
   double unknown = 0;

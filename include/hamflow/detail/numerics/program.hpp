@@ -58,7 +58,7 @@ class StepLoop {
   /// Repeats the program on `carried`, in place, `steps` times, or fewer if it ends by itself (Program::ends_at).
   /// @return the number of steps; -1 if a check failed, `carried` is then undefined
   virtual std::int64_t take(std::span<double> carried, std::int64_t steps) const = 0;
-  /// The same. @return whether every check held in every step
+  /// As take(). @return whether every check held in every step
   bool run(std::span<double> carried, std::int64_t steps) const { return take(carried, steps) >= 0; }
 };
 

@@ -11,7 +11,7 @@
 namespace hamflow {
 
 /// Computes the values of all nodes from the inputs, which are the first nodes.
-/// @param nodes as many as the tape has @return whether its guards hold at both ends; otherwise the values are invalid
+/// @param nodes one for each node of the tape @return whether its guards hold at both ends; else the values are invalid
 template <class R, class S>
 bool replay(const Tape<R>& tape, Vector<Slope<S>, dynamic>& nodes) {
   using Number = Slope<S>;

@@ -1,6 +1,6 @@
-// Taylor coefficients of the solution of z' = f(z), f recorded on a tape, coefficient by coefficient: with those of z
-// up to k all nodes follow up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k). [JorbaZou2005, Prop. 2.1;
-// GriewankWalther2008, tables 13.1, 13.2]
+// Taylor coefficients of the solution of z' = f(z), with f recorded on a tape. They follow one after the other: the
+// coefficients of z up to k give those of all nodes up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k).
+// [JorbaZou2005, Prop. 2.1; GriewankWalther2008, tables 13.1, 13.2]
 //
 // Time is in units chosen by the caller: z(t0 + s unit) = sum_k z_k s^k.
 #pragma once

@@ -67,7 +67,7 @@ class DoublePendulumNonlinear : public PendulumChart<R, angles> {
                                    const Vector<R, 2>& inertias = {R(0), R(0)}, R gravity = parse_decimal<R>("9.81"))
       : body_(masses, half_lengths, inertias, gravity) {}
   explicit DoublePendulumNonlinear(const Parameters<R>& given) : body_(given) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit DoublePendulumNonlinear(const DoublePendulumNonlinear<Q, angles>& other) : body_(other.body_) {}
 
@@ -211,7 +211,7 @@ class DoublePendulumLinear : public PendulumChart<R, angles> {
                                 const Vector<R, 2>& inertias = {R(0), R(0)}, R gravity = parse_decimal<R>("9.81"))
       : DoublePendulumLinear(DoublePendulumBody<R>(masses, half_lengths, inertias, gravity)) {}
   explicit DoublePendulumLinear(const Parameters<R>& given) : DoublePendulumLinear(DoublePendulumBody<R>(given)) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit DoublePendulumLinear(const DoublePendulumLinear<Q, angles>& other) {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -258,8 +258,8 @@ class DoublePendulumLinear : public PendulumChart<R, angles> {
     }
   }
 
-  /// The modes of the Hamiltonian as it is stored: M is inverted back, so that the rounding of M^-1 in R is the same in
-  /// the exact and in the computed motion.
+  /// The modes of the Hamiltonian with its stored, rounded M^-1. M is computed from M^-1, so that the exact and the
+  /// computed motion have the same rounding of M^-1.
   ModalSolution<2> modes() const {
     Matrix<long double, 2> inverse{};
     Matrix<long double, 2> stiffness{};

@@ -29,7 +29,7 @@ struct DoublePendulumBody {
         least_determinant(m[0] * l[0] * l[0] * c + R(4) * m[1] * l[0] * l[0] * theta[1] + theta[0] * c),
         w1((m[0] + R(2) * m[1]) * gravity * l[0]),
         w2(m[1] * gravity * l[1]) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit DoublePendulumBody(const DoublePendulumBody<Q>& other)
       : a(R(other.a)),
@@ -50,8 +50,8 @@ struct DoublePendulumBody {
             {"gravity", "9.81", "g"}};
   }
 
-  /// What is allowed instead if M is singular; else empty. det M > 0 for all positive masses and lengths, unless their
-  /// products leave the range of R.
+  /// Returns the allowed values if M is singular, else an empty text. det M > 0 for all positive masses and lengths,
+  /// unless their products leave the range of R.
   std::string allowed_instead() const {
     if (least_determinant > R(0) && isfinite(least_determinant)) return {};
     return "masses, half_lengths and inertias whose mass matrix is not singular to rounding";

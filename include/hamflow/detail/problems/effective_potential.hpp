@@ -40,17 +40,18 @@ struct CentralOrbit {
   /// turning points or, without one, at the extremum of V_eff nearest by the ratio of radii.
   long double circular_radius = 0;
   bool circular_stable = false;  // V_eff'' > 0
-  /// From pericentre to apocentre, half of (2.43), not negative; to infinity on unbounded orbits; of the small
-  /// oscillation on a stable circle (infinity on an unstable one, and where
-  /// it is approached for ever). On a line through the centre pi/2, the limit of
-  /// small l; 0 where the phase does not change. Where the motion ends in the centre, from there to apocentre or to
-  /// infinity: infinity of a spiral that goes round the centre without end, or for longer than the quadrature resolves.
+  /// The angle from pericentre to apocentre, half of (2.43), not negative. Special cases: on unbounded orbits, from
+  /// pericentre to infinity; on a stable circle, that of the small oscillation; on an unstable circle, and on orbits
+  /// that approach one for ever, infinite; on a line through the centre pi/2, which is the limit of small l; 0 if the
+  /// phase does not change. If the motion ends in the centre, the angle from there to apocentre or to infinity. It is
+  /// infinite for a spiral with infinitely many revolutions, or with more than the quadrature resolves.
   long double apsidal_angle = 0;
-  /// From pericentre to pericentre; infinity on unbounded orbits, unstable circles and separatrices. Where the centre
-  /// is reached twice the time from apocentre to it, which of a fall on a line is the limit of thin ellipses.
+  /// The time from pericentre to pericentre; infinite on unbounded orbits, unstable circles and separatrices. If the
+  /// motion reaches the centre, twice the time from apocentre to the centre; for a fall on a line this is the limit of
+  /// thin ellipses.
   long double radial_period = 0;
-  /// (2.44): apsidal angle/pi = revolutions/radial_periods. A circle closes after one revolution, whatever the period
-  /// of small oscillations about it: radial_periods is 0 there where one revolution is no whole number of these.
+  /// Whether the orbit closes (2.44): apsidal angle/pi = revolutions/radial_periods. A circle closes after one
+  /// revolution. radial_periods is then the number of small oscillations per revolution, or 0 if that is not whole.
   bool closed = false;
   int revolutions = 0;
   int radial_periods = 0;
@@ -100,9 +101,10 @@ void add_circular_orbit(const RadialMotion<Potential>& motion, CentralOrbit& orb
   orbit.circular_stable = best->stable;
 }
 
-/// The phase between the centre, where the motion ends, and apocentre or infinity. It is infinite where V is no steeper
-/// than -1/r^2: the integrand then is as 1/r, and no refinement of the quadrature comes to rest. Infinity, too, where
-/// the quadrature resolves a finite one no more: V as r^-2.001, and close above a maximum of V_eff.
+/// Returns the phase between the centre, where the motion ends, and apocentre or infinity. It is infinite if V is not
+/// steeper than -1/r^2, because the integrand is then like 1/r and the quadrature does not converge. It is also
+/// reported as infinite if the quadrature cannot resolve a finite value: for V like r^-2.001, and slightly above a
+/// maximum of V_eff.
 template <class Potential>
 long double phase_from_centre(const RadialMotion<Potential>& motion, const RadialClock<Potential>& clock) {
   using L = long double;

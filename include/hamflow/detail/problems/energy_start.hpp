@@ -34,7 +34,7 @@ R polished(const F& f, long double x) {
       const R value = f(here);
       const R slope = (value - value_before) / (here - before);
       const R change = value / slope;
-      if (!(abs(change) <= std::numeric_limits<R>::max())) break;  // the same value twice: no further improvement
+      if (!(abs(change) <= std::numeric_limits<R>::max())) break;  // a value repeats: no further improvement
       before = here;
       value_before = value;
       here = here - change;

@@ -57,7 +57,7 @@ struct GravityModel : Particles<R> {
     const F c = Law::pull(F(F(constant) * (masses[i] * masses[j])), u);
     return std::pair{c, [u, c, dw](const F& d, const F& w) { return F(c * (w - F(3) * d * dw / u)); }};
   }
-  /// By r^2, with one quotient for all three.
+  /// Returns the potential and its first two derivatives by r^2, computed with one quotient.
   template <class S>
   RadialLaw<S> radial_law(const S& square) const {
     const S inverse = R(1) / (square + softening_squared);

@@ -34,19 +34,19 @@ struct Particles {
   }
 };
 
-/// Copies share their model.
-/// @tparam M Particles<R> with, for the particles i and j,
-///   square(d, axes)     u, from d = q_i - q_j, which may become that of the nearest images; what follows is asked at u
-///   ends(u)             whether they are out of each other's reach, for good of all kicks
+/// A system of particles with pair potentials. Copies share their model.
+/// @tparam M derives from Particles<R> and has, for particles i and j,
+///   square(d, axes)     returns u = r^2 from d = q_i - q_j, and may replace d by that of the nearest images
+///   ends(u)             whether the particles are out of range
 ///   energy(u, i, j)     V_ij
-///   pull(u, i, j)       c of the force -c d on i, c d on j
-///   pull_times(factor)  a function of (u, i, j): factor times c, for kicks of the lattice
+///   pull(u, i, j)       c, for the force -c d on i and c d on j
+///   pull_times(factor)  a function of (u, i, j): factor times c, for kicks on the lattice
 ///   pair_hessian(u, i, j)       a function of (d, k, l): the entry k, l of d^2 V_ij/dq_i^2
-///   strength(i, j), radial_law(u)   as RadialForces has them, u = r^2
-///   turns_freely(), moves_freely()  whether angular, and linear, momentum is conserved
-///   sums_by_rows        whether V is the sum of the sums over j, or one sum
-/// and, where it can, pair_hessian_times(factor, u, i, j): the same as `pair_hessian`, for kicks of the lattice; and
-/// near, a shared NearPairs or null: pairs that it leaves out have energy, pull and kick 0.
+///   strength(i, j), radial_law(u)   see RadialForces
+///   turns_freely(), moves_freely()  whether angular and linear momentum are conserved
+///   sums_by_rows        whether V is added up row by row, or as a single sum
+/// Optional are pair_hessian_times(factor, u, i, j), which is pair_hessian for kicks on the lattice, and near, a shared
+/// NearPairs or null. Pairs that NearPairs leaves out have energy, pull and kick 0.
 template <class R, class M>
 class PairSystem {
  public:
@@ -102,9 +102,9 @@ class PairSystem {
     }
   }
 
-  // As PairwiseForces, for the lattice: each contribution is rounded, and integers are summed. Row i holds the pairs i,
-  // j > i. Every operation is symmetric or antisymmetric in i and j, so that another numbering of the particles does
-  // not change a bit of a contribution.
+  // The functions of PairwiseForces, for the lattice. Each contribution is rounded, and integers are summed. Row i
+  // contains the pairs i, j > i. Every operation is symmetric or antisymmetric in i and j, so that another numbering of
+  // the particles does not change a bit of a contribution.
   std::size_t pair_rows() const { return particles(); }
   std::size_t pairs_in_row(std::size_t i) const { return particles() - 1 - i; }
   template <class F, class Difference, class Sink>
@@ -112,7 +112,7 @@ class PairSystem {
                   Sink& sink) const {
     pair_kicks(factor, difference, first, last, sink, AllPairs{particles()});
   }
-  /// The same without the pairs that `near` omits.
+  /// As above, without the pairs that `near` omits.
   template <class F, class Difference, class Sink, class Near>
   void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last, Sink& sink,
                   const Near& near) const {
@@ -122,14 +122,14 @@ class PairSystem {
       pair_kicks_in<3>(factor, difference, first, last, sink, near);
     }
   }
-  /// As HasNearPairs (detail/methods/pair_sums.hpp).
+  /// Required by HasNearPairs (detail/methods/pair_sums.hpp).
   template <class Position>
   NearPairs::Turn near_pairs(const Position& position, ThreadTeam* team = nullptr) const requires
       requires(const Model& model) {
     model.near;
   }
   { return model_->near ? model_->near->at(position, team) : NearPairs::Turn(particles()); }
-  /// The same with -third V''(q) v added.
+  /// As above, with -third V''(q) v added.
   template <class F, class Difference, class Sink>
   void pair_gradient_kicks(const F& factor, const F& third, const Vector<F, dynamic>& v, const Difference& difference,
                            std::size_t first, std::size_t last, Sink& sink) const requires
@@ -157,7 +157,7 @@ class PairSystem {
     }
   }
 
-  // As RadialForces.
+  // The functions of RadialForces.
   std::size_t radial_space() const { return space(); }
   std::vector<RadialTerm<R>> radial_terms() const {
     std::vector<RadialTerm<R>> terms;

@@ -128,7 +128,7 @@ class RadialMotion {
     for (std::size_t i = 0; i < rule.c.size(); ++i) mean += rule.b[i] * potential_.slope(R(v + rule.c[i] * distance));
     return mean;
   }
-  /// The same for V_eff.
+  /// As above, for V_eff.
   R mean_effective_slope(R r, const Reference& s) const {
     const R slope = mean_slope(r, s);
     return l_ == R(0) ? slope : slope - l_ / (r * r) * (l_ / (s.r * s.r)) / mass_;
@@ -267,8 +267,8 @@ class RadialMotion {
   std::vector<CircularOrbit> extrema_;
 };
 
-/// Time and phase along a radial motion, from an apsis of it: from pericentre where there is one, otherwise from
-/// apocentre, otherwise from the centre. The radius is a function of a parameter x >= 0 in which both are smooth.
+/// Time and phase along a radial motion from an apsis: from pericentre if there is one, else from apocentre, else from
+/// the centre. The radius is a function of a parameter x >= 0 in which both are smooth.
 template <class Potential>
 class RadialClock {
  public:

@@ -36,7 +36,7 @@ class Functions {
   using V = Vector<S, dynamic>;
   using M = Matrix<S, dynamic>;
   virtual ~Functions() = default;
-  // From the pool, because the reduced problem of a cyclic problem is made in every step.
+  // Memory comes from the pool, because the reduced problem of a cyclic problem is made in every step.
   static void* operator new(std::size_t bytes) { return Pool::take(bytes); }
   static void operator delete(void* memory, std::size_t bytes) { Pool::give(memory, bytes); }
   virtual S energy(const V& q, const V& p) const = 0;
@@ -49,7 +49,8 @@ class Functions {
   virtual void inverse_mass_times(const V& f, V& out) const { velocity(f, out); }
   /// Whether the last coordinates hold the time (detail/core/step_clock.hpp).
   virtual bool has_clock() const { return false; }
-  // For problems that define them. If steps of any length are recorded, a factor is a number of the recording.
+  // Only some problems define scaled functions. If steps of any length are recorded, a factor is a number of the
+  // recording.
   virtual bool has_scaled_velocity() const = 0;
   virtual bool has_scaled_force() const = 0;
   virtual void scaled_velocity(const S& factor, const V& p, V& v) const = 0;
@@ -57,7 +58,8 @@ class Functions {
   virtual void gradient(const V& q, const V& p, V& dq, V& dp) const = 0;
   virtual void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const = 0;
   virtual void force_and_hessian(const V& q, V& f, M& h) const = 0;
-  // At `count` points in one call, in the layout of detail/methods/implicit/points.hpp; here one after the other.
+  // Evaluate at `count` points in one call, with the layout of detail/methods/implicit/points.hpp. The default
+  // evaluates one point after the other.
   virtual void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const {
     V x = V(size);
     V y = x;
@@ -109,20 +111,20 @@ class Functions {
   virtual V invariants(const V& q, const V& p, const S& t) const = 0;
   virtual std::vector<std::size_t> invariant_sizes() const = 0;
   virtual std::string label() const = 0;  // of the problem and its choices, for saved states
-  // For constraints. The last groups of invariants are then their residuals, g and g' M^-1 p, which should be 0.
+  // Only with constraints. The last groups of invariants are then the residuals g and g' M^-1 p, which should be 0.
   virtual std::size_t residual_groups() const { return 0; }
   virtual V constraints(const V&) const { no_constraints(); }
   virtual Gradients<S, dynamic> constraint_gradients(const V&) const { no_constraints(); }
-  // Of a cyclic problem.
+  // Only for cyclic problems.
   virtual std::shared_ptr<const Functions> reduced(const S& momentum) const = 0;
   virtual S cyclic_rate(const V& q, const S& momentum) const = 0;
-  // Of a charge in a field.
+  // Only for charges in a field.
   virtual void velocity_of(const V& q, const V& p, V& v) const = 0;
   virtual void momentum_of(const V& q, const V& v, V& p) const = 0;
   virtual V rotation() const = 0;
-  // Of bodies or a centre.
+  // Only for problems with bodies or a centre.
   virtual S distance_rate(const V& q, const V& v) const = 0;
-  // Of forces between bodies or to a centre.
+  // Only for forces between bodies or towards a centre.
   virtual std::size_t radial_space() const = 0;
   virtual std::vector<RadialTerm<base_scalar<S>>> radial_terms() const = 0;
   virtual RadialLaw<S> radial_law(const S& u) const = 0;
@@ -226,7 +228,7 @@ class FunctionsOf final : public Functions<S> {
     put(by_p, dp);
   }
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
-    // With traces, for lanes, if it is written by hand.
+    // For traces, which lanes need, only if the problem has a hand-written Hessian.
     if constexpr (Smooth<P> && has_hessian && (std::is_same_v<S, RealOf<P>> || HasHessian<P, S>)) {
       const X x = in(q);
       Matrix<S, n> by_qq = zero_matrix(x);
@@ -252,7 +254,7 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
-  // In double without a virtual call for each point; in other number types such calls cost little.
+  // In double this avoids a virtual call for each point. In other number types such calls cost little.
   void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const override {
     if constexpr (Separable<P> && in_double) {
       hamflow::forces_at(problem_, count, q, f);
@@ -552,7 +554,7 @@ class AnyProblem {
                    Vector<S, dynamic>& p) const requires charge {
     on<S>().momentum_of(q, v, p);
   }
-  /// For problems that define it, which is known at run time.
+  /// Requires that the problem defines it, which is known only at run time.
   template <class S>
   S distance_rate(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v) const {
     return on<S>().distance_rate(q, v);

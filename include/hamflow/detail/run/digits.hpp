@@ -1,4 +1,4 @@
-// The numbers of a run with more digits than double as decimal texts, which read back to the same bits.
+// Numbers of a run in arithmetic with more digits than double, as decimal texts that read back to the same bits.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ struct DigitState {
   std::vector<std::string> p;
 };
 
-/// The state in the coordinates of another entry of the same problem, computed in the arithmetic; an angle lies within
-/// half a turn of 0 if the first coordinates have no angles. @throws Error outside the range of a chart
+/// Converts a state to the coordinates of another entry of the same problem, in the given arithmetic. If the first
+/// coordinates have no angles, angles are within half a revolution of 0. @throws Error outside the range of a chart
 /// @param parameters complete
 DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const Texts& parameters,
                        const std::string& arithmetic, const DigitState& state);

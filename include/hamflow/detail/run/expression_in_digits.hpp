@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// Its value, computed with the digits of the present MpDigits scope.
+/// An expression, evaluated with the digits of the present MpDigits scope.
 using ExpressionInDigits = std::function<Mp(const FrameDigits&)>;
 
 /// @param parameters complete   @param size of q   @throws Error as StateExpression does

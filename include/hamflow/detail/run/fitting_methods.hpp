@@ -10,17 +10,17 @@
 
 namespace hamflow {
 
-/// The candidates that accept a problem in an arithmetic, in order, at most three: "stv4, cg"; empty if there are none.
+/// Returns the first three candidates that accept a problem in an arithmetic: "stv4, cg"; empty if there are none.
 /// @param problem null: unknown, so every method may accept it
 std::string fitting_methods(std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
                             const std::string& arithmetic);
-/// The same as the end of "allowed ...": "soft", or another method, e.g. stv4; empty if there are none.
-/// @param what "another method" @param before what else is allowed; if not empty, "or" is added
+/// Returns them as the end of "allowed ...": "soft", or another method, e.g. stv4; empty if there are none.
+/// @param what "another method" @param before other allowed values; if not empty, "or" is added
 std::string or_fitting_method(const std::string& before, const std::string& what,
                               std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
                               const std::string& arithmetic);
 
-/// The same to follow the description of a method: ", e.g. stv4, cg"; empty if there are none.
+/// Returns them for the end of a description of methods: ", e.g. stv4, cg"; empty if there are none.
 std::string with_fitting_methods(std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
                                  const std::string& arithmetic);
 

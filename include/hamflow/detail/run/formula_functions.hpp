@@ -10,7 +10,7 @@ namespace hamflow {
 /// Whether the coordinates of a typed Hamiltonian have a centre from which distances are taken.
 enum class TypedCentre { none, origin, of_radius };  // of_radius: the first coordinate is the distance
 
-/// For states of type S, with parameters of type R.
+/// The functions for states of type S and parameters of type R.
 template <class R, class S>
 class FormulaFunctions final : public Functions<S> {
  public:
@@ -38,7 +38,7 @@ class FormulaFunctions final : public Functions<S> {
   void scaled_force(const S& factor, const V& q, V& f) const override {
     model_->template scaled_force<S>(factor, q, f);
   }
-  /// With constraints this is the field of the motion on them, dH/dq + g'^T lambda(q, p), dH/dp, which is not a
+  /// With constraints, returns the field of the constrained motion, dH/dq + g'^T lambda(q, p) and dH/dp, which is not a
   /// gradient.
   void gradient(const V& q, const V& p, V& dq, V& dp) const override {
     model_->template gradient<S>(q, p, dq, dp);
@@ -93,8 +93,9 @@ class FormulaFunctions final : public Functions<S> {
 
  private:
   std::size_t count() const { return model_->model().structure().constraints; }
-  /// From d^2 g/dt^2 = 0, without second derivatives of H.   [Sonnleitner2010, p. 22]
-  /// @param dq dV/dq, then with the constraints' part   @param v the velocity
+  /// Adds the forces of the constraints, which follow from d^2 g/dt^2 = 0 without second derivatives of H.
+  /// [Sonnleitner2010, p. 22]
+  /// @param dq dV/dq; the forces of the constraints are added to it   @param v the velocity
   void add_constraint_forces(const V& q, V& dq, const V& v) const {
     const Gradients<S, dynamic> rows = constraint_gradients(q);
     Gradients<S, dynamic> with_mass;
@@ -118,9 +119,9 @@ class FormulaFunctions final : public Functions<S> {
 /// The capabilities of a typed Hamiltonian.
 inline Capability capabilities_of(const FormulaStructure& structure) {
   Capability all = Capability::smooth;
-  if (structure.constraints > 0) return all | Capability::constrained;  // its field is not that of T + V
+  if (structure.constraints > 0) return all | Capability::constrained;  // the field differs from that of T + V
   if (structure.separable) all = all | Capability::separable;
-  // With the time and its momentum among the coordinates T has a linear term: velocities are not M^-1 p.
+  // If t is one of the coordinates, T has a term linear in its momentum, so velocities are not M^-1 p.
   if (structure.quadratic_kinetic && !structure.time) all = all | Capability::quadratic_kinetic;
   return all;
 }

@@ -24,10 +24,9 @@ struct MethodSpec {
 
 /// Advice for users who choose a method.
 struct MethodAdvice {
-  std::string
-      purpose{};        // what it is for, if it is one of the few recommended at the top of `list methods`; else empty
-  std::string take{};   // when to use it
-  std::string avoid{};  // when not to use it, and what is better then
+  std::string purpose{};  // its use, for the few methods recommended at the top of `list methods`; else empty
+  std::string take{};     // when to use it
+  std::string avoid{};    // when not to use it, and a better choice
 };
 
 /// The option for the accuracy of a step, in every family that has one.

@@ -71,7 +71,7 @@ std::string problem_label() {
 }
 }  // namespace detail
 
-/// Computes nothing.
+/// A probe that computes nothing.
 struct NoProbe {
   template <class P, class R, std::size_t N>
   void start(const P&, const Vector<R, N>&, const Vector<R, N>&, const R&) {}

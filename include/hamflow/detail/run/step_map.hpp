@@ -38,7 +38,7 @@ class StepMap {
   virtual std::vector<State<double>> directions(const State<double>&) const { return {}; }
   /// Takes `steps` steps of length h from a fresh start, in double. Returns false if a step fails.
   virtual bool advance(State<double>& z, double h, std::int64_t steps) const = 0;
-  /// The same in long double, so that the rounding of double does not limit measured orders.
+  /// As above, in long double, so that the rounding of double does not limit measured orders.
   virtual bool advance(State<long double>& z, long double h, std::int64_t steps) const = 0;
   /// d Psi_h(z)/dz row by row, exact: by dual numbers for an explicit step, by the implicit function theorem at the
   /// solution of an implicit step.

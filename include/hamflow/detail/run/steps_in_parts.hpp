@@ -45,7 +45,7 @@ class StepsInParts {
   virtual void remember_state(Place /*place*/) { refuse(); }
   /// Restores the saved state, which stays saved.
   virtual void restore_state(Place /*place*/) { refuse(); }
-  /// The same, but the counts of the method's work are kept. @return false if that is not possible; nothing is done
+  /// As restore_state(), but keeps the counts of the method's work. @return false, with nothing done, if not supported
   virtual bool restore_state_keeping_effort(Place /*place*/) { return false; }
   /// z <- Psi_h(z), without kick, force or initial guess from before. Clock and probe do not change.
   virtual Outcome take_part(const R& /*h*/) { refuse(); }
@@ -58,9 +58,9 @@ class StepsInParts {
   virtual Effort effort_of_parts() const { refuse(); }
   /// Tells the method that the state was changed, so that it drops its memory of the state.
   virtual void forget() { refuse(); }
-  /// The same if only momenta were changed.
+  /// As forget(), if only momenta were changed.
   virtual void forget_momenta() { forget(); }
-  /// The same if the state was mirrored in the i-th coordinate and the force is symmetric under that.
+  /// As forget(), if the state was mirrored in the i-th coordinate and the force is symmetric under that.
   virtual void forget_mirrored(std::size_t /*i*/) { forget(); }
   /// Computes the quantity that the next step begins with, if the method keeps one and has dropped it.
   virtual void prepare() {}

@@ -1,7 +1,7 @@
 // Chin's algorithm B: t1 T, V~/2, t2 T, V~/2, t1 T, V~ = V - (2 - sqrt(3))/24 h^2 |V'|^2, t1 = (1 - 1/sqrt(3))/2,
 // t2 = 1/sqrt(3).   [Chin1997]
-// Order 4 without backward actions: two forces and two Hessians per step, symplectic, symmetric. In closed form; the
-// gradient's 1/2 (2 - sqrt(3))/24 derived like that of chin4a.
+// Order 4 without backward actions: two forces and two Hessians per step, symplectic, symmetric. Coefficients are in
+// closed form; 1/2 (2 - sqrt(3))/24 of the gradient is derived as for chin4a.
 #pragma once
 
 #include "hamflow/methods/tables.hpp"

@@ -8,7 +8,7 @@ namespace hamflow {
 template <class R = double>
 class NBody : public Gravity<R> {
  public:
-  /// @param size of q: as many coordinates per body as space has dimensions
+  /// @param size the number of all coordinates: two per body in the plane, three in space
   NBody(const Parameters<R>& given, std::size_t size)
       : Gravity<R>(given.list("masses"), given["gravitational_constant"], given["softening"],
                    size / given.list("masses").size()) {}
@@ -46,7 +46,8 @@ class NBody : public Gravity<R> {
     return std::to_string(2 * bodies) + " numbers in the plane, " + std::to_string(3 * bodies) + " in space for " +
            std::to_string(bodies) + (bodies == 1 ? " body" : " bodies");
   }
-  /// Which two bodies are at the same point; empty if none are. Without softening the force between them is undefined.
+  /// Names two bodies at the same point; empty if there are none. Without softening the force between them is
+  /// undefined.
   static std::string refused_start(const Parameters<R>& given, const Vector<R, dynamic>& q) {
     if (given["softening"] > R(0)) return {};
     const std::size_t bodies = given.list("masses").size();

@@ -16,7 +16,7 @@ class Newton {
             .parameters = {{"softening", "0", "length", Range::not_negative}}};
   }
 
-  // With a strength, and d = r^2 + softening^2: strength phi, and c of the force -c (x_i - x_j) on i.
+  // strength phi, and the factor c of the force -c (x_i - x_j) on body i, for d = r^2 + softening^2.
   template <class T, class S>
   static S energy(const T& strength, const S& d) {
     return -strength / sqrt(d);

@@ -12,7 +12,7 @@ class Binomial {
  public:
   explicit Binomial(R k = R(1), R lambda = R(1)) : k_(k), lambda_(lambda) {}
   explicit Binomial(const Parameters<R>& given) : Binomial(given["k"], given["lambda"]) {}
-  /// With the constants of the same potential in another number type.
+  /// Converts the potential from another number type.
   template <class Q>
   explicit Binomial(const Binomial<Q>& other) : k_(R(other.k_)), lambda_(R(other.lambda_)) {}
 

@@ -13,7 +13,7 @@ class Hooke {
  public:
   explicit Hooke(R k = R(-1)) : k_(k) {}
   explicit Hooke(const Parameters<R>& given) : Hooke(given["k"]) {}
-  /// With the constants of the same potential in another number type.
+  /// Converts the potential from another number type.
   template <class Q>
   explicit Hooke(const Hooke<Q>& other) : k_(R(other.k_)) {}
 
@@ -100,8 +100,8 @@ class Hooke {
     return pericentre_start(r_per, l);
   }
 
-  /// With v = p/mu and F = v v^T - (k/mu) q q^T, which is conserved, q^T (tr F - F) q = (l/mu)^2: the conic
-  /// (2.143)-(2.148) about its centre. Not finite if the orbit does not reach phi.
+  /// F = v v^T - (k/mu) q q^T with v = p/mu is conserved, and q^T (tr F - F) q = (l/mu)^2 is the conic (2.143)-(2.148)
+  /// about its centre. The radius is not finite if the orbit does not reach phi.
   std::function<double(double)> exact_radius(double mass, const Vector<double, 2>& q,
                                              const Vector<double, 2>& p) const {
     const double kappa = -static_cast<double>(k_) / mass;

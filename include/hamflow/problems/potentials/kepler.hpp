@@ -15,7 +15,7 @@ class Kepler {
 
   explicit Kepler(R k = R(1)) : k_(k) {}
   explicit Kepler(const Parameters<R>& given) : Kepler(given["k"]) {}
-  /// With the constants of the same potential in another number type.
+  /// Converts the potential from another number type.
   template <class Q>
   explicit Kepler(const Kepler<Q>& other) : k_(R(other.k_)) {}
 

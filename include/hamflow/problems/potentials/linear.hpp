@@ -11,7 +11,7 @@ class Linear {
  public:
   explicit Linear(R k = R(1)) : k_(k) {}
   explicit Linear(const Parameters<R>& given) : Linear(given["k"]) {}
-  /// With the constants of the same potential in another number type.
+  /// Converts the potential from another number type.
   template <class Q>
   explicit Linear(const Linear<Q>& other) : k_(R(other.k_)) {}
 

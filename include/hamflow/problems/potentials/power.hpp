@@ -17,7 +17,7 @@ class Power {
     for (std::size_t i = 0; i < a.size(); ++i) terms_.push_back(Term(a[i], n[i]));
   }
   explicit Power(const Parameters<R>& given) : Power(given.list("a"), given.list("n")) {}
-  /// With the constants of the same potential in another number type.
+  /// Converts the potential from another number type.
   template <class Q>
   explicit Power(const Power<Q>& other) {
     for (const auto& term : other.terms_) terms_.push_back(Term(R(term.a), R(term.twice) - R(1)));
@@ -76,7 +76,7 @@ class Power {
     return d;
   }
 
-  /// By quadrature to rounding.
+  /// The state after time t, by quadrature.
   std::optional<Start<long double, 2>> exact(long double mass, const Vector<long double, 2>& q,
                                              const Vector<long double, 2>& p, long double t) const {
     return central_flow(*this, mass, q, p, t);
@@ -120,7 +120,7 @@ class Power {
     return term.half_steps < 0 ? S(R(1)) / result : result;
   }
 
-  std::vector<Term, PoolAllocator<Term>> terms_;  // copied in each step where a cyclic angle is closed
+  std::vector<Term, PoolAllocator<Term>> terms_;  // from a pool, because steps with a cyclic angle copy them
 };
 
 }  // namespace hamflow

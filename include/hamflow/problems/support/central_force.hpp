@@ -16,18 +16,18 @@
 
 namespace hamflow {
 
-/// A start on the y-axis for circles, moving to the left: counter-clockwise.   [Gross1999, (2.127), (2.128)]
+/// The start for circles: on the y-axis, moving to the left, so counter-clockwise.   [Gross1999, (2.127), (2.128)]
 template <class R>
 Start<R, 2> circular_start(const R& r0, const R& l) {
   return {{R(0), r0}, {-l / r0, R(0)}};
 }
-/// A start at pericentre on the x-axis.   [Gross1999, (2.131)]
+/// The start at pericentre on the x-axis.   [Gross1999, (2.131)]
 template <class R>
 Start<R, 2> pericentre_start(const R& r_per, const R& l) {
   return {{r_per, R(0)}, {R(0), l / r_per}};
 }
 
-/// The entries of a summary's `orbit`.
+/// Returns the entries of `orbit` in a summary.
 OrbitFacts facts_of(const CentralOrbit& orbit);
 
 template <class R, template <class> class Potential>
@@ -40,7 +40,7 @@ class CentralForce {
 
   CentralForce(R mass, Potential<R> potential) : mass_(mass), inverse_mass_(R(1) / mass), potential_(potential) {}
   explicit CentralForce(const Parameters<R>& given) : CentralForce(given["mass"], Potential<R>(given)) {}
-  /// With the constants of the same problem in another number type.
+  /// Converts the problem from another number type.
   template <class Q>
   explicit CentralForce(const CentralForce<Q, Potential>& other)
       : mass_(R(other.mass_)), inverse_mass_(R(other.inverse_mass_)), potential_(other.potential_) {}
@@ -90,7 +90,7 @@ class CentralForce {
   void force(const Vector<S, 2>& q, Vector<S, 2>& f) const {
     attract(potential_.slope(square(q)), q, f);
   }
-  /// Of potentials whose slope takes a factor.
+  /// Only for potentials with a scaled slope.
   template <class F, class S>
   requires potentials::HasScaledSlope<Potential<R>, S, F>
   void scaled_force(const F& factor, const Vector<S, 2>& q, Vector<S, 2>& f) const {
@@ -105,7 +105,7 @@ class CentralForce {
     hessian[0][1] = hessian[1][0] = cx * q[1];
     hessian[1][1] = d.slope + d.curvature * (q[1] * q[1]);
   }
-  // As RadialForces.
+  // The functions of RadialForces.
   static std::size_t radial_space() { return 2; }
   static std::vector<RadialTerm<R>> radial_terms() { return {{0, RadialTerm<R>::centre, R(1)}}; }
   template <class S>
@@ -113,7 +113,7 @@ class CentralForce {
     const CentralDerivatives<S> d = potential_.derivatives(u);
     return {potential_.value(u), d.slope / R(2), d.curvature / R(4)};
   }
-  /// Of the distance from the centre.
+  /// The rate of change of the distance from the centre.
   template <class S>
   S distance_rate(const Vector<S, 2>& q, const Vector<S, 2>& v) const {
     return (q[0] * v[0] + q[1] * v[1]) / square(q);
@@ -123,7 +123,7 @@ class CentralForce {
     return {q[0] * p[1] - q[1] * p[0]};
   }
 
-  /// What is wrong with the potential's parameters, as key and message.
+  /// Returns the error in the parameters of the potential, as key and message; both empty if they are accepted.
   static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
     if constexpr (potentials::HasRefusedParameters<Potential<R>, R>) {
       return Potential<R>::refused_parameters(given);
@@ -135,7 +135,7 @@ class CentralForce {
   static void derive(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
     if constexpr (potentials::HasDerive<Potential<R>, R>) Potential<R>::derive(kind, orbit, given);
   }
-  /// A geometric start. @param conditions receives every inequality that the geometry has to meet
+  /// Returns a geometric start. @param conditions receives every inequality that the geometry has to satisfy
   static Start<R, 2> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
                            Conditions& conditions) {
     if (kind.empty()) {
@@ -149,7 +149,7 @@ class CentralForce {
       return {};
     }
   }
-  /// The exact orbit through (q, p) as r(phi), empty where it is not known in closed form.
+  /// Returns the exact orbit through (q, p) as r(phi); empty if there is no closed form.
   std::function<double(double)> exact_radius(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
     if constexpr (potentials::HasExactRadius<Potential<R>>) {
       return potential_.exact_radius(static_cast<double>(mass_), q, p);
@@ -157,7 +157,7 @@ class CentralForce {
       return {};
     }
   }
-  /// The exact state after time t, where there is a way to compute it.
+  /// Returns the exact state after time t; nullopt if it cannot be computed.
   std::optional<Start<long double, 2>> exact(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                              long double t) const {
     if constexpr (potentials::HasExact<Potential<R>>) {
@@ -166,7 +166,7 @@ class CentralForce {
       return std::nullopt;
     }
   }
-  /// What the effective potential says of the orbit.   [Gross1999, (2.40)-(2.44)]
+  /// Returns the facts about the orbit that follow from the effective potential.   [Gross1999, (2.40)-(2.44)]
   OrbitFacts describe_orbit(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
     return facts_of(describe_central_orbit(potential_, static_cast<double>(mass_), q, p));
   }

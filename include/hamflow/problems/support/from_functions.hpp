@@ -71,7 +71,7 @@ auto separable(T kinetic, V potential) {
   return SeparableFunctions<N, T, V, false>{kinetic, potential};
 }
 
-/// The same for T = p^T M^-1 p/2 with constant M, which implicit elements use to halve their unknowns.
+/// As above, for T = p^T M^-1 p/2 with constant M. Implicit elements then have half as many unknowns.
 template <std::size_t N, class T, class V>
 auto natural(T kinetic, V potential) {
   detail::expect_generic<N, T, V>();

@@ -1,6 +1,6 @@
 // A particle of (reduced) mass mu in a central field in polar coordinates, H = (p_r^2 + p_phi^2/r^2)/(2 mu) + V(r).
-// [Gross1999, (2.77)-(2.106)]   phi is cyclic and not wrapped; with p_phi = 0 the motion may pass through the centre to
-// negative r, where the potential allows it.
+// [Gross1999, (2.77)-(2.106)]   phi is cyclic and not wrapped. With p_phi = 0 the motion may pass through the centre to
+// negative r if the potential is finite there.
 #pragma once
 
 #include "hamflow/detail/problems/one_dimensional.hpp"
@@ -118,7 +118,7 @@ class PolarCentralForce {
     pp[0][0] = S(R(1) / mass_);
     pp[1][1] = R(1) / (mass_ * u);
   }
-  /// Of the distance from the centre.
+  /// The rate of change of the distance from the centre.
   template <class S>
   S distance_rate(const Vector<S, 2>& q, const Vector<S, 2>& v) const {
     return v[0] / q[0];
@@ -128,7 +128,7 @@ class PolarCentralForce {
     return {p[1]};
   }
 
-  /// What is left with phi closed.
+  /// The radial problem for a given angular momentum.
   Reduced reduced(const R& angular_momentum) const { return Reduced(mass_, potential_, angular_momentum); }
   /// phi'.
   R cyclic_rate(const Vector<R, 1>& q, const R& angular_momentum) const {
@@ -160,7 +160,7 @@ class PolarCentralForce {
     return to_polar(s);
   }
 
-  // What is known of the orbit is known in Cartesian coordinates.
+  // The facts about the orbit are computed in Cartesian coordinates.
   std::function<double(double)> exact_radius(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
     const Start<double, 2> s = to_cartesian(Start<double, 2>{q, p});
     return cartesian().exact_radius(s.q, s.p);
@@ -181,7 +181,7 @@ class PolarCentralForce {
   }
 
  private:
-  /// The example of the Cartesian problem, or that of its region.
+  /// Returns the example of the Cartesian problem, or the example of its region.
   static ExampleInfo polar_example(const ProblemInfo& cartesian) {
     ExampleInfo all = cartesian.example;
     const std::vector<double>& z = cartesian.region.centre;
@@ -196,14 +196,15 @@ class PolarCentralForce {
     all.p = {s.p[0], s.p[1]};
     return all;
   }
-  /// l = 0: phi stays, and r goes through zero where the potential lets it.
+  /// The motion with l = 0: phi is constant, and r changes its sign if the potential is finite at the centre.
   std::optional<Start<long double, 2>> exact_on_line(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                                      long double t) const {
     const auto end = exact_in_plane({q[0], 0}, {p[0], 0}, t);
     if (!end) return std::nullopt;
     return Start<long double, 2>{{end->q[0], q[1]}, {end->p[0], 0}};
   }
-  /// With the mass itself, by which this H divides; the Cartesian one multiplies by its rounded inverse.
+  /// The motion in the plane. It uses the mass itself, because this H divides by it; the Cartesian H multiplies by the
+  /// rounded 1/mass.
   std::optional<Start<long double, 2>> exact_in_plane(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                                       long double t) const {
     if constexpr (potentials::HasExact<Potential<R>>) {

@@ -41,7 +41,7 @@ struct AverageTable {
   std::vector<R> middle;       // omega_j
   std::vector<R> coupling;     // A_ij at [i k + j]
   std::vector<R> next;         // maps the averages of a polynomial motion to those of the next step, at [j k + i]
-  // For the Jacobian only, at [l k k + i k + j]
+  // Only for the Jacobian, at index [l k k + i k + j].
   std::vector<R> tangent_weights;          // W_il dy_l/du_j, dy_l/du_j = e_j/2 + N_lj
   std::vector<R> natural_tangent_weights;  // W_il dq_l/du^p_j, without h M^-1
 };

@@ -67,7 +67,7 @@ class AverageSetup {
   bool automatic() const { return options_.element.quadrature == 0; }
   /// The table with one point more, for elements with fewer points than the maximum.
   const AverageTable<Real>& finer() const { return *finer_; }
-  /// The table with two points more. @pre there are so many
+  /// Returns the table with two more points. @pre such a rule exists
   const AverageTable<Real>& finest() const { return element_table<Real>(table().averages, table().points + 2); }
   /// Adds a point; returns false at the limit, since the test needs one point more.
   bool refine() {

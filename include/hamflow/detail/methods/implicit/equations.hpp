@@ -15,7 +15,7 @@
 //     Problem, Real, Setup                     types
 //     Variables = Vector<Real, ...>            X
 //     Unknowns = Vector<Real, ...>             U
-//     Memory = Vector<Real, ...>               data from which the first guess is extrapolated
+//     Memory = Vector<Real, ...>               data from which the initial guess is extrapolated
 //     Point                                    the values at one X, with a member `residual` (Variables): r, with that
 //                                              sign for which X + tangent^-1 r is better than X; default-constructible
 // Newton:

@@ -286,7 +286,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     effort_.force += rule_.points;
     effort_.hessian += rule_.points;
   }
-  /// The same sums for large systems, point by point.
+  /// Computes these sums point by point, for large systems.
   void sum_points(const V& d, V& sum, Matrix<Real, n>& stiffness) const {
     const V middle = detail::midpoint<Real>(q0_, d);
     V f = zeros_like(d);
@@ -382,7 +382,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     return rest;
   }
 
-  /// The same with the complete correction c.
+  /// As above, with the complete correction c.
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const Expanded& half, const V& c) const {
     V impulse = zeros_like(d);
     for (std::size_t i = 0; i < d.size(); ++i) {

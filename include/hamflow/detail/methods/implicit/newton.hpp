@@ -1,15 +1,15 @@
 // Newton's iteration for the equations of a step, and its initial guesses.
 //
-// The first guess is extrapolated from the last steps; without memory it is the explicit predictor. If it fails, the
+// The initial guess is extrapolated from the last steps; without memory it is the explicit predictor. If it fails, the
 // predictor, the last state (as in the programs of the first thesis) and a damped Newton iteration are tried in turn,
 // each with max_iterations corrections. If all fail, ImplicitMethod continues the solution of a short step to the whole
 // step.
 //
 // If h is longer than the period of the fastest motion, a polynomial through the last steps does not predict the next
 // one. Newton may still converge from there, for example to a root on the other side of a singularity. Therefore, if
-// the distance of the first guess from the solution is larger than the whole step, it counts as a guess failure: steps
-// then start from the last state, until three extrapolations in a row would have been closer. With good guesses this
-// costs no evaluation.
+// the distance of the initial guess from the solution is larger than the whole step, it counts as a guess failure:
+// steps then start from the last state, until three extrapolations in a row would have been closer. With good guesses
+// this costs no evaluation.
 #pragma once
 
 #include "hamflow/detail/methods/implicit/equations.hpp"
@@ -64,7 +64,7 @@ class Newton {
     Increment<Real, E::n> taken{};  // z1 - z0
   };
 
-  /// The result of the first guess.
+  /// The result of the initial guess.
   struct FirstAttempt {
     bool settled = false;  // found the solution of the step; otherwise retry_from_other_guesses() is needed
     bool found = false;    // found a solution, but far from the guess
@@ -72,7 +72,7 @@ class Newton {
     Guess start = Guess::extrapolated;
   };
 
-  /// Solves the step from its first guess. Does nothing after guess failures.
+  /// Solves the step from its initial guess. Does nothing after guess failures.
   FirstAttempt solve(const E& step, const NewtonReport& report, Solution& found) const {
     if (guess_failures_ > 0) [[unlikely]]
       return {};
@@ -85,7 +85,7 @@ class Newton {
     return {ending == Ending::converged && !result.guess_was_far, ending == Ending::converged,
             ending == Ending::refused, start};
   }
-  /// To be called if the first guess failed, was not used, or led to a distant root. @return whether a solution was
+  /// Call this if the initial guess failed, was not used, or led to a distant root. @return whether a solution was
   /// found
   [[gnu::cold, gnu::noinline]] bool retry_from_other_guesses(const E& step, const NewtonReport& report,
                                                              const FirstAttempt& first, Solution& found) {
@@ -120,7 +120,7 @@ class Newton {
     return from_other_starts(step, report, found, Guess::converged);
   }
 
-  /// To be called after each step that is taken.
+  /// Call this after each step that is taken.
   void remember(const E& step, const Solution& found) { memory_.remember(step.memory(found.x, found.taken)); }
   /// Drops the memory, which belongs to steps of one length in one direction.
   void forget() {
@@ -135,8 +135,8 @@ class Newton {
   const auto& memory() const { return memory_; }
   bool uses_memory() const { return guess_failures_ == 0 && !memory_.empty(); }
   void remember(const typename E::Memory& memory) { memory_.remember(memory); }
-  /// The number of steps solved from this guess after the first guess had failed or was not used. Not part of the state
-  /// of a run.
+  /// The number of steps solved from this guess after the initial guess had failed or was not used. Not part of the
+  /// state of a run.
   long long solved_from(Guess start) const { return solved_[static_cast<int>(start)]; }
 
  private:
@@ -367,7 +367,7 @@ class Newton {
   }
 
   typename detail::GuessesOf<E>::type memory_;
-  int guess_failures_ = 0;  // number of good extrapolations still needed before one is used as first guess
+  int guess_failures_ = 0;  // number of good extrapolations still needed before one is used as initial guess
   long long solved_[6] = {};
 };
 

@@ -11,7 +11,7 @@ namespace hamflow {
 /// How the equations of a step are solved.
 enum class Iteration {
   newton,                // exact Jacobian in every iteration
-  simplified,            // the Jacobian at the first guess, factored once per step
+  simplified,            // the Jacobian at the initial guess, factored once per step
   fixed_point,           // no Jacobian, only first derivatives
   fixed_point_or_newton  // fixed_point, and newton for a step that does not converge with it
 };

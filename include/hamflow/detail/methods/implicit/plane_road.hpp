@@ -1,8 +1,9 @@
 // The fast path of cg(1) for two coordinates, which nearly every step takes: Newton's corrections from the extrapolated
-// guess until NewtonProgress ends them, in double, without reports. It has the same operations in the same order as
-// natural.hpp and newton.hpp, on plain numbers that stay in registers: a step is one chain of dependent operations from
-// guess to guess, and passing numbers through memory, or reading pairs that were written separately, costs a fifth. Two
-// Gauss points are evaluated in one register and summed one after the other. All other steps are left to Newton.
+// initial guess until NewtonProgress ends them, in double, without reports. It has the same operations in the same
+// order as natural.hpp and newton.hpp, on plain numbers that stay in registers: a step is one chain of dependent
+// operations from guess to guess, and passing numbers through memory, or reading pairs that were written separately,
+// costs a fifth. Two Gauss points are evaluated in one register and summed one after the other. All other steps are
+// left to Newton.
 #pragma once
 
 #include <algorithm>

@@ -45,7 +45,7 @@ void forces_at(const P& problem, std::size_t count, const S* q, S* f) {
   }
 }
 
-/// The same with V'', whose entry (a, b) is entry a * size + b.
+/// Evaluates forces and V''. Its entry (a, b) is entry a * size + b.
 template <class P, class S>
 void forces_and_hessians_at(const P& problem, std::size_t count, const S* q, S* f, S* h) {
   if constexpr (requires { problem.forces_and_hessians_at(count, q, f, h); }) {

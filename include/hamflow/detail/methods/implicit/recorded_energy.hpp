@@ -83,7 +83,7 @@ class RecordedEnergy {
     const auto [q1, p1] = detail::coordinates_and_momenta<P::dimension>(end);
     return (energy(problem, q1, p1) - energy(problem, q0, p0)) / t;
   }
-  /// The same for number types that the problem does not support. @return false if a branch lies in between
+  /// As above, for number types that the problem does not support. @return false if a branch lies in between
   template <class S>
   bool slope_on_tape(const P& problem, const Vector<S, dynamic>& z, const Vector<S, dynamic>& s, const S& t,
                      S& found) const {
