@@ -63,7 +63,7 @@ class OrbitReader {
     }
   }
 
-  /// The last of several is the one to complain about.
+  /// If several are given, the error is reported for the last one.
   void at_most_one(const std::vector<Given>& all) {
     std::vector<std::string> found;
     for (const Given& one : all) {

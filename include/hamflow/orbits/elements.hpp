@@ -12,8 +12,8 @@
 
 namespace hamflow {
 
-/// Angles in radians: `inclination` in [0, pi], the others in [0, 2 pi). Where an angle is undefined (in the plane, on
-/// a circle), `node` and `pericentre` are 0 and the longitudes give the place.
+/// Angles are in radians, `inclination` in [0, pi], the others in [0, 2 pi). If `node` or `pericentre` is undefined (in
+/// the plane, on a circle) it is 0, and the longitudes give the place.
 template <class R>
 struct OrbitalElements {
   R a;  // negative on a hyperbola, infinite on a parabola
@@ -21,12 +21,12 @@ struct OrbitalElements {
   R pericentre_distance;
   R inclination;
   R node;
-  R pericentre;  // from the node
+  R pericentre;  // argument of the pericentre, from the node
   R longitude_of_pericentre;
   R true_anomaly;
   R mean_anomaly;           // hyperbola: e sinh F - F, of either sign; NaN on a parabola
-  R mean_longitude;         // NaN but on an ellipse
-  R period;                 // NaN but on an ellipse
+  R mean_longitude;         // NaN unless the orbit is an ellipse
+  R period;                 // NaN unless the orbit is an ellipse
   R time_since_pericentre;  // of either sign; ellipse: the nearest pericentre
 };
 
@@ -94,8 +94,8 @@ R in_one_turn(R angle) {
 
 }  // namespace detail
 
-/// The elements of the orbit about mu = G m > 0 on which a body at r with velocity v is. The motion along a line
-/// through the centre is a conic with e = 1 and pericentre distance 0, whose angles are 0.
+/// Returns the elements of the orbit of a body at r with velocity v, for mu = G m > 0. The motion along a line through
+/// the centre is a conic with e = 1 and pericentre distance 0, whose angles are 0.
 template <class R>
 OrbitalElements<R> elements_of(const Vector<R, 3>& r, const Vector<R, 3>& v, const R& mu) {
   OrbitalElements<R> out;
@@ -108,7 +108,7 @@ OrbitalElements<R> elements_of(const Vector<R, 3>& r, const Vector<R, 3>& v, con
   const R beta = R(2) * mu * inverse_distance - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 
   // The plane.
-  // Far out r and v are nearly parallel, and the products cancel.
+  // Far from the centre r and v are nearly parallel, and the products cancel.
   using Careful = typename CarefulNumber<R>::type;
   const auto area = [&](std::size_t i, std::size_t k) {
     return static_cast<R>(Careful(r[i]) * Careful(v[k]) - Careful(r[k]) * Careful(v[i]));
@@ -140,12 +140,12 @@ OrbitalElements<R> elements_of(const Vector<R, 3>& r, const Vector<R, 3>& v, con
   const R inverse_beta = one / beta;
   out.a = mu * inverse_beta;
   out.pericentre_distance = q;
-  // The direction of half of the true anomaly, from whichever of 1 +- cos does not cancel.
+  // The direction of half of the true anomaly, computed from 1 + cos or 1 - cos, so that nothing cancels.
   const bool is_near = !(cosine < zero);
   const R half_x = is_near ? by_vector + cosine : abs(sine);
   const R half_y = is_near ? sine : (sine < zero ? cosine - by_vector : by_vector - cosine);
-  // The eccentric anomaly: consistent with the true anomaly near the circle, where both are noise whose difference is
-  // not; of E itself near the parabola, where E is small and the true anomaly is not.
+  // The eccentric anomaly E. Near the circle it follows from the true anomaly: both are rounding there, but their
+  // difference is not. Near the parabola it is computed directly, because E is small and the true anomaly is not.
   const R root = sqrt(abs(beta));
   const R e_sine = eta * root * inverse_mu;
   const bool is_round = by_vector < R(0.5);
@@ -168,7 +168,7 @@ OrbitalElements<R> elements_of(const Vector<R, 3>& r, const Vector<R, 3>& v, con
 
   out.mean_longitude = nan;
   out.period = nan;
-  const R inverse_rate = mu * inverse_beta * inverse_beta * root;  // of the mean motion
+  const R inverse_rate = mu * inverse_beta * inverse_beta * root;  // 1/mean motion
   if (zero < beta) {
     const R eccentric = is_circle ? argument : is_round ? R(2) * angle[4] : angle[4];
     const bool cancels = !is_round && abs(eccentric) < one;

@@ -34,7 +34,7 @@ R inner_product(const Vector<R, N>& a, const Vector<R, N>& b) {
   return sum;
 }
 
-/// |r x v|^2, in any dimension, with the digits of its terms.
+/// Returns |r x v|^2 in any dimension, with the accuracy of its terms.
 template <class R, std::size_t N>
 R squared_area_rate(const Vector<R, N>& r, const Vector<R, N>& v) {
   R sum(0);
@@ -47,7 +47,7 @@ R squared_area_rate(const Vector<R, N>& r, const Vector<R, N>& v) {
   return sum;
 }
 
-/// r and v on the way, and what has been added to them.
+/// The present r and v, and the increments so far.
 template <class R, std::size_t N>
 struct DriftInParts {
   Vector<R, N> r;
@@ -133,9 +133,9 @@ V sum_of_eight(const double (&c)[8], V x) {
   return low + high * (x2 * x2);
 }
 
-/// A step is short where mu s^2/r0, beta s^2, eta s/r0 and the square of (mu s/r0)/v are below this: less than a
-/// twelfth of a period on a circle. The first term left out of a series is 2^-68 of its sum there, the rounding of r0
-/// and beta is not yet multiplied, and the increments are smaller than what they are added to.
+/// A step is short if mu s^2/r0, beta s^2, eta s/r0 and the square of (mu s/r0)/v are below this number: less than a
+/// twelfth of a period on a circle. Then the first omitted term of a series is 2^-68 of its sum, rounding errors of r0
+/// and beta are not amplified, and the increments are smaller than the numbers that they are added to.
 inline constexpr double short_step = 0.25;
 // (-1)^n/(2 n + 2)! and (-1)^n/(2 n + 3)!.
 inline constexpr double c2_series[8] = {1. / 2,       -1. / 24,        1. / 720,          -1. / 40320,
@@ -143,7 +143,7 @@ inline constexpr double c2_series[8] = {1. / 2,       -1. / 24,        1. / 720,
 inline constexpr double c3_series[8] = {1. / 6,        -1. / 120,         1. / 5040,           -1. / 362880,
                                         1. / 39916800, -1. / 6227020800., 1. / 1307674368000., -1. / 355687428096000.};
 
-/// A short step, in double or in a vector of doubles, one body a lane.
+/// A short step, in double or in a vector of doubles with one body in each lane.
 template <class V>
 struct ShortKeplerStep {
   V r0;
@@ -159,7 +159,7 @@ struct ShortKeplerStep {
   V g2;
   V g3;
   V r;
-  V correction;  // the last one, relative to s
+  V correction;  // the last correction, relative to s
 
   ShortKeplerStep(V r0_, V eta_, V square_of_v, V mu_, V t_) : r0(r0_), eta(eta_), mu(mu_), t(t_) {
     inverse_r0 = 1 / r0;
@@ -172,8 +172,8 @@ struct ShortKeplerStep {
     s = sigma * (1 - u * 0.5 + (u * u * 0.5 - w * (1. / 6)) + u * (w * (5. / 12) - u * u * 0.625));
   }
 
-  /// A step of Newton's method with the second and third derivative, then the functions at the new s by their Taylor
-  /// series. Both errors are (correction of s)^4.   [Danby1988, ch. 6]
+  /// Takes a step of Newton's method with second and third derivatives, then evaluates the functions at the new s by
+  /// their Taylor series. Both have an error of (correction of s)^4.   [Danby1988, ch. 6]
   void correct() {
     const V square = s * s;
     const V x = beta * square;

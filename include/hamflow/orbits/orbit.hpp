@@ -11,12 +11,12 @@
 
 namespace hamflow {
 
-/// Angles in radians. The members have the names of the keys of a scenario.
+/// Angles are in radians. Members have the names of the keys of a scenario.
 template <class R>
 struct Orbit {
-  // The size: one of these.
+  // The size: exactly one of these.
   std::optional<R> a;                    // negative on a hyperbola; not with e = 1
-  std::optional<R> period;               // ellipses alone
+  std::optional<R> period;               // only for ellipses
   std::optional<R> pericentre_distance;  // every conic
 
   R e = R(0);
@@ -26,7 +26,7 @@ struct Orbit {
   std::optional<R> pericentre;               // from the node
   std::optional<R> longitude_of_pericentre;  // node + pericentre, at every inclination
 
-  // The place: at most one of these; at the pericentre without.
+  // The place: at most one of these. Default: at the pericentre.
   std::optional<R> mean_anomaly;        // hyperbola: e sinh F - F
   std::optional<R> true_anomaly;        // every conic
   std::optional<R> eccentric_anomaly;   // hyperbola: F
@@ -52,7 +52,7 @@ UniversalStart<R> unit_pericentre(const R& e) {
   return {R(1), R(0), R(1), R(1) - e};
 }
 
-/// A cube root to the last digit or so.
+/// Returns the cube root, accurate to about the last digit.
 template <class R>
 R cube_root(const R& x) {
   const R guess = pow(x, R(1) / R(3));
@@ -89,7 +89,7 @@ PlaceOnConic<R> place_by_true_anomaly(const R& e, const R& f) {
   return {distance * cosine, distance * sine, -sine / root, (e + cosine) / root};
 }
 
-/// @returns false where Kepler's equation has no solution in R
+/// @returns false if Kepler's equation has no solution in R
 template <class R>
 bool place_by_time(const R& e, R t, PlaceOnConic<R>& place) {
   const UniversalStart<R> start = unit_pericentre(e);
@@ -104,7 +104,7 @@ bool place_by_time(const R& e, R t, PlaceOnConic<R>& place) {
   return true;
 }
 
-/// An angle less the nearest whole number of turns.
+/// Returns an angle minus the nearest whole number of revolutions.
 template <class R>
 R nearest_turn_removed(const R& angle) {
   return reduced_by_period(angle, full_turn<R>());

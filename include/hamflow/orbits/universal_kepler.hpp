@@ -1,15 +1,15 @@
 // Kepler's equation in universal variables: the s with
 //     r0 G1(s) + eta G2(s) + mu G3(s) = t,                                                    [Danby1988, Sect. 6.9]
-// r0 the distance at the start, eta = r . v, beta = 2 mu/r0 - v^2. The left side grows with s, as its derivative is the
-// distance r(s). So the root is bracketed, and no start and no conic can make the iteration fail unseen.
+// where r0 is the distance at the start, eta = r . v and beta = 2 mu/r0 - v^2. The left side grows with s, because its
+// derivative is the distance r(s). The root can therefore be bracketed, and the iteration cannot fail without notice.
 #pragma once
 
 #include "hamflow/orbits/stumpff.hpp"
 
 namespace hamflow {
 
-/// The number type in which motions of R are computed where care matters more than time. The 11 additional bits of long
-/// double keep the rounding of a whole computation below what one unit of its inputs changes.
+/// The number type for computations in which accuracy matters more than speed. For double it is long double, whose 11
+/// additional bits keep the rounding of a whole computation below the effect of one unit in its inputs.
 template <class R>
 struct CarefulNumber {
   using type = R;
@@ -19,7 +19,7 @@ struct CarefulNumber<double> {
   using type = long double;
 };
 
-/// The sum on the left side of Kepler's equation, and what Newton's method needs.
+/// The left side of Kepler's equation, and its derivatives for Newton's method.
 template <class R>
 struct UniversalTime {
   UniversalFunctions<R> g;
@@ -30,7 +30,7 @@ struct UniversalTime {
   R magnitude;  // the sum of the sizes of the terms of time
 };
 
-/// A start, in the terms of universal variables; r0 = 0 is allowed where eta = 0 (a collision orbit).
+/// A start in universal variables. r0 = 0 is allowed if eta = 0 (a collision orbit).
 template <class R>
 struct UniversalStart {
   R r0;
@@ -55,7 +55,8 @@ struct UniversalStart {
 
 namespace detail {
 
-/// t less the nearest whole number of periods. Of many periods the product rounds by one unit of t.
+/// Returns t minus the nearest whole number of periods. For many periods the product has a rounding error of one unit
+/// of t.
 template <class R>
 R reduced_by_period(R t, const R& period) {
   // A whole number has at most the digits of long double in one pass; 64 passes are all exponents of quad.
@@ -70,12 +71,12 @@ inline long double reduced_by_period(long double t, long double period) {
   return std::isfinite(period) ? std::remainder(t, period) : t;  // exact
 }
 
-/// An s at or beyond the root. `t` > 0; on an ellipse at most a period.
+/// Returns an upper bound of the root. `t` > 0, and at most a period on an ellipse.
 template <class R>
 R bound_of_root(const UniversalStart<R>& start, const R& t) {
   if (R(0) < start.beta) return full_turn<R>() / sqrt(start.beta);
   const R root = sqrt(-start.beta);
-  const R beyond = R(1) + R(1) / R(1024);                   // more than rounding takes from the bound
+  const R beyond = R(1) + R(1) / R(1024);                   // a margin larger than the rounding of the bound
   const auto below_sinh = [&](const R& s, const R& sine) {  // the smaller of s and asinh(sine)/root
     const R y = R(1) < sine ? inverse_sinh(sine) : sine;
     return y < root * s ? R(y / root) : s;
@@ -96,7 +97,7 @@ R bound_of_root(const UniversalStart<R>& start, const R& t) {
 
 }  // namespace detail
 
-/// The number type in which a root in R is first looked for.
+/// The number type for the first search of a root in R.
 template <class R>
 struct CoarseNumber {
   using type = long double;
@@ -130,7 +131,7 @@ bool solve_universal_kepler(const UniversalStart<R>& start, const R& t, R& s, Un
                                               coarse(start.beta)};
     if (solve_universal_kepler(coarse_start, coarse(t), guess, at_guess) && R(guess) < high) s = R(guess);
   }
-  // Bisection alone ends after the binary digits and exponents of R.
+  // Bisection alone needs as many steps as R has binary digits and exponents.
   for (int k = 0; k < 40000; ++k) {
     found = start.at(s);
     const R residual = found.time - t;
@@ -147,8 +148,8 @@ bool solve_universal_kepler(const UniversalStart<R>& start, const R& t, R& s, Un
     const R inside = first * first - R(20) * residual * found.slope;
     const R step = -R(5) * residual / (found.distance + sqrt(abs(inside)));
     const R next = s + step;
-    // The error that this step leaves is of third order. Where that is less than a rounding, so are the third-order
-    // terms of the functions at s + step.
+    // The error after this step is of third order. If it is below the rounding, so are the third-order terms of the
+    // functions at s + step.
     const R of_s = step / s;
     const R of_distance = step * found.slope / found.distance;
     const R of_slope = step * step * found.curvature / found.distance;

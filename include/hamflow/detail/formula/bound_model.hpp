@@ -14,8 +14,8 @@ namespace hamflow::formula {
 template <class R>
 class BoundModel {
  public:
-  /// @param rounded not null: constants are computed in double from these values, and are the numbers that a run in
-  /// double has   @throws Error naming a constant part that is not finite with these values
+  /// @param rounded if not null, constants are computed in double from these values, so that they equal those of a run
+  /// in double   @throws Error that names a constant part that is not finite with these values
   BoundModel(std::shared_ptr<const Model> model, const Parameters<R>& values,
              const Parameters<double>* rounded = nullptr)
       : model_(std::move(model)), value_of_(lookup(values)) {
@@ -188,7 +188,7 @@ class BoundModel {
     m[at.second][at.first] = x;
   }
 
-  /// Bound when a method first needs them.
+  /// Second derivatives. They are bound when a method first needs them.
   struct Second {
     std::once_flag once;
     const HessianCode* hessian_entries = nullptr;

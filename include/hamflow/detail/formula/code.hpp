@@ -1,6 +1,6 @@
-// **Straight code for expressions**: the operations of a graph that outputs need, one after the other. What depends on
-// constants alone, numbers and fixed symbols, is computed once, in the number type of the parameters; the rest for each
-// state, in any number type.
+// **Straight-line code for expressions**: the operations of a graph that the outputs need, one after the other. Parts
+// that depend only on numbers and fixed symbols are computed once, in the number type of the parameters. All other
+// parts are computed for each state, in any number type.
 #pragma once
 
 #include <algorithm>
@@ -19,40 +19,40 @@
 
 namespace hamflow::formula {
 
-/// Places of values: first the constants, then the symbols that vary, then results.
+/// An operation. Values are numbered: first the constants, then the varying symbols, then results.
 struct CodeStep {
   Op op;
   int a = -1;
-  int b = -1;     // of a whole power unused
+  int b = -1;     // unused for a whole power
   int whole = 0;  // the exponent of a power that is a product
 };
 
 struct Code {
   struct Constant {
     enum class Kind : std::uint8_t { number, pi, symbol, result } kind;
-    std::string text{};  // of a number
-    int symbol = -1;     // its number among all symbols
-    CodeStep step{};     // of a result; operands are earlier constants
+    std::string text{};  // the text of a number
+    int symbol = -1;     // the index of a fixed symbol among all symbols
+    CodeStep step{};     // the operation of a result; its operands are earlier constants
   };
   std::vector<Constant> constants;
-  std::vector<int> symbols;  // those that vary, by their numbers among all
+  std::vector<int> symbols;  // the varying symbols, by their index among all
   std::vector<CodeStep> steps;
-  std::vector<int> outputs;  // places
+  std::vector<int> outputs;  // the numbers of the output values
 
   std::size_t places() const { return constants.size() + symbols.size() + steps.size(); }
 };
 
-/// @param fixed which symbols keep their value
+/// @param fixed for each symbol, whether its value is constant
 Code code_of(const Graph& graph, std::span<const int> outputs, const std::vector<bool>& fixed);
 
 /// Converts code for doubles to a program (detail/numerics/program.hpp). It carries the varying symbols, then the
 /// outputs.
 Program program_of(const Code& code, const std::vector<double>& constants);
 
-/// Code in double as machine code, made when it has been run so often that it is worth it; same bits.
+/// Machine code for code in double, with the same bits. It is compiled only after the code has run often.
 class MachineCode {
  public:
-  /// Null for the first runs.
+  /// Returns the loop; null for the first runs.
   const StepLoop* loop(const Code& code, const std::vector<double>& constants) {
     if (const StepLoop* const ready = ready_.load(std::memory_order_acquire)) return ready;
     return runs_.fetch_add(1, std::memory_order_relaxed) < worth_it ? nullptr : made(code, constants);
@@ -118,7 +118,7 @@ class BoundCode {
   const Code& code() const { return *code_; }
   const std::vector<R>& constants() const { return constants_; }
 
-  /// @param value_of(symbol) the value of a symbol that varies   @param put(k, value) takes the k-th output
+  /// @param value_of(symbol) the value of a varying symbol   @param put(k, value) receives the k-th output
   template <class S, class ValueOf, class Put>
   void run(const ValueOf& value_of, const Put& put) const {
     if constexpr (std::is_same_v<R, double> && std::is_same_v<S, double>) {

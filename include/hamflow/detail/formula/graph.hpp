@@ -17,7 +17,7 @@ using Op = Operation;
 
 struct Node {
   Op op;
-  int a = -1;  // operands; of a number its place in texts(), of a symbol its number
+  int a = -1;  // operands; for a number its index in texts(), for a symbol its index
   int b = -1;
   friend bool operator==(const Node&, const Node&) = default;
 };

@@ -1,6 +1,6 @@
-// **A typed Hamiltonian, understood**: its names, what H is (separable, T quadratic, dependent on the time), and code
-// for H, its exact derivatives and its invariants. What holds for all values of the parameters is here, once for all
-// runs; formula/functions.hpp gives the parameters values.
+// **The model of a typed Hamiltonian**: its names, its structure (separable, T quadratic, dependent on the time), and
+// code for H, its exact derivatives and its invariants. It holds for all values of the parameters and is shared by all
+// runs; bound_model.hpp adds the values.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace hamflow {
 
 namespace formula {
 
-/// Entries (row, column) of a symmetric or general matrix that are not 0 everywhere, in the order of code's outputs.
+/// The entries (row, column) of a matrix that are not 0 everywhere, in the order of the outputs of the code.
 using Entries = std::vector<std::pair<std::size_t, std::size_t>>;
 
 struct HessianCode {
@@ -37,7 +37,7 @@ class Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  /// Coordinates that have names.
+  /// The number of coordinates with names.
   std::size_t size() const { return coordinates_.size(); }
   /// The degrees of freedom of the functions below. If H depends on t, two more coordinates carry the time: the time
   /// since the present step began, with the momentum E, and the time at which the step began, which the motion does not
@@ -53,7 +53,8 @@ class Model {
   const FormulaStructure& structure() const { return structure_; }
   /// The texts in one line, for saved states.
   const std::string& label() const { return label_; }
-  /// Coordinates, momenta, t, parameters, in the order of values; known: what indices needed.
+  /// The symbols in the order of their values: coordinates, momenta, t, parameters. `known` has the values that indices
+  /// needed.
   const FormulaSymbols& symbols() const { return symbols_; }
   std::size_t time_symbol() const { return 2 * size(); }
   /// The symbol of the factor of scaled_force and scaled_velocity. It follows all others. After it come the symbols of
@@ -82,7 +83,7 @@ class Model {
   /// factor f and factor v, with the factor multiplied into the constants (core/derivatives.hpp), for a force that is a
   /// scalar times the position, as in central fields; else null.
   std::shared_ptr<const Code> scaled_force, scaled_velocity;
-  /// Second derivatives, made when they are first asked for.
+  /// Second derivatives. Each function derives them when it is first called.
   const HessianCode& hessian() const;
   const ForceAndHessianCode& force_and_hessian() const;
 

@@ -7,7 +7,7 @@
 
 namespace hamflow::formula {
 
-/// A constant as a number of type S, through any nesting of dual numbers.
+/// Converts a constant to a number of type S, through any nesting of dual numbers.
 template <class S, class R>
 S lifted(const R& x) {
   if constexpr (std::is_same_v<S, R>) {
@@ -19,7 +19,7 @@ S lifted(const R& x) {
   }
 }
 
-/// Up to here a whole power is a product.
+/// The largest whole exponent for which a power is computed by products.
 inline constexpr int largest_whole_power = 64;
 
 }  // namespace hamflow::formula

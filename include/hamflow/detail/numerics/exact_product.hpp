@@ -21,10 +21,10 @@ struct Halves {
   }
 };
 
-/// kappa: sums over the Gauss points use the weights kappa b_l and are multiplied by h/kappa at the end. The rounding
-/// of that product decides whether the last correction of Newton, which is usually smaller, counts or is lost. For it
-/// to count on average, the product must have random digits for any h; with h = 1/8 it would have none. The multiples
-/// of the golden ratio are distributed most evenly.
+/// kappa. Sums over the Gauss points use the weights kappa b_l and are multiplied by h/kappa at the end. The last
+/// correction of Newton's method is usually smaller than the rounding of this product, which decides whether the
+/// correction counts or is lost. It counts on average only if the digits of the product are random for any h; without
+/// kappa, h = 1/8 would not change a digit. Multiples of the golden ratio are distributed most evenly.
 template <class Real>
 inline Real golden_ratio() {
   return Real(1.6180339887498949);

@@ -33,8 +33,8 @@ std::vector<R> legendre_values(int count, const R& x) {
   return values;
 }
 
-/// I_0 - 1/2, I_1 .. I_(count - 1) at 1/2 + x: integrals from the middle for j = 0, where P_0 is the only one that is
-/// even with an integral over [0, 1].
+/// I_0 - 1/2, I_1 .. I_(count - 1) at 1/2 + x. For j = 0 the integral starts at the middle, because P_0 is the only
+/// polynomial with an integral other than 0 over [0, 1].
 template <class R>
 std::vector<R> legendre_integrals(int count, const R& x) {
   const std::vector<R> values = legendre_values<R>(count + 1, x);

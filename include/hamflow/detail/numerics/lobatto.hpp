@@ -23,7 +23,7 @@ struct LobattoPair {
   int stages = 0;
   std::vector<R> offset;  // c - 1/2, odd about the middle of the step to the last bit
   std::vector<R> b;
-  std::vector<R> nu;  // row after row, nu_(s+1-i,s+1-j) = -nu_ij; -1/2 in the first row, 1/2 in the last
+  std::vector<R> nu;  // row by row, nu_(s+1-i,s+1-j) = -nu_ij; -1/2 in the first row, 1/2 in the last
 };
 
 namespace detail {
@@ -89,7 +89,7 @@ LobattoPair<R> made_lobatto_pair(int stages) {
 }
 }  // namespace detail
 
-/// @param stages 2 .. 10, and more. Made once for each number type; the address does not change.
+/// Returns a pair, which is computed once for each number type and keeps its address.   @param stages at least 2
 template <class R>
 const LobattoPair<R>& lobatto_pair(int stages) {
   static std::mutex mutex;

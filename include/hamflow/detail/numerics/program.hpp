@@ -31,7 +31,7 @@ struct Program {
     Instruction instruction;
     Operand a;
     Operand b;    // unused by functions of one number
-    Operand c{};  // of choose
+    Operand c{};  // used by choose and fused operations
     friend bool operator==(const Operation&, const Operation&) = default;
   };
   struct Check {

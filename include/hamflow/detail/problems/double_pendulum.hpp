@@ -1,7 +1,7 @@
 // Double pendulum with general masses, rods and inertias, nonlinear and linear, in absolute and in relative angles.
 // [Gross1999, ch. 3; the entries of M and V: support/double_pendulum_body.hpp]
 //
-// Nonlinear: H = p^T M(q)^-1 p/2 + V(q). M depends on q through delta = q1 - q2 (absolute angles) alone. With the
+// Nonlinear: H = p^T M(q)^-1 p/2 + V(q). M depends on q only through delta = q1 - q2 (absolute angles). With the
 // angular velocities v = M^-1 p,
 //     dT/d(delta) = -v^T M' v/2 = b sin(delta) v1 v2,   dv/d(delta) = -M^-1 M' v = M^-1 b sin(delta) (v2, v1)^T,
 // from which gradient and Hessian follow. In relative angles delta = -q2, and M, p, v change as in pendulum_angles.hpp.
@@ -145,7 +145,7 @@ class DoublePendulumNonlinear : public PendulumChart<R, angles> {
   /// Quantities for both derivatives, in absolute angles.
   template <class S>
   struct Motion {
-    S cosine;  // of delta
+    S cosine;  // cos(delta)
     S determinant;
     S coupling;  // b sin(delta)
     Vector<S, 2> velocity;

@@ -36,8 +36,9 @@ struct CentralOrbit {
   long double angular_momentum = 0;  // 0 if it is only rounding
   long double r_min = 0;             // turning points; 0 if the centre is reached
   long double r_max = 0;             // infinity if the motion is unbounded
-  /// The circular orbit of this angular momentum, 0 if there is none: at the deepest minimum of V_eff between the
-  /// turning points or, without one, at the extremum of V_eff nearest by the ratio of radii.
+  /// The radius of the circular orbit with this angular momentum; 0 if there is none. It is at the deepest minimum of
+  /// V_eff between the turning points or, if there is no minimum, at the extremum of V_eff nearest by the ratio of
+  /// radii.
   long double circular_radius = 0;
   bool circular_stable = false;  // V_eff'' > 0
   /// The angle from pericentre to apocentre, half of (2.43), not negative. Special cases: on unbounded orbits, from
@@ -58,8 +59,8 @@ struct CentralOrbit {
   bool falls_into_centre = false;  // the motion ends there: V has no finite value at r = 0
 };
 
-/// The fraction with the smallest denominator within `tolerance` of x >= 0, if that is at most `largest`. A fraction
-/// closer than 1/(2 denominator^2) is a convergent of the continued fraction of x.
+/// Returns the fraction with the smallest denominator within `tolerance` of x >= 0; nullopt if the denominator exceeds
+/// `largest`. A fraction closer than 1/(2 denominator^2) is a convergent of the continued fraction of x.
 inline std::optional<std::pair<int, int>> commensurable(long double x, int largest, long double tolerance) {
   long double p = 1;
   long double q = 0;
@@ -112,7 +113,7 @@ long double phase_from_centre(const RadialMotion<Potential>& motion, const Radia
   std::vector<Integral> parts;
   if (motion.r_max() < motion.infinity) {
     parts.push_back(integrate_from_ends([&](L x, L rest) { return clock.at(x, rest).phase; }, clock.end()));
-  } else {  // in r up to the radius of the state, beyond it in s = 1/r
+  } else {  // integrates over r up to the radius of the state, and over s = 1/r beyond it
     const L middle = motion.radius();
     parts.push_back(integrate_from_ends([&](L r, L) { return clock.at(r).phase; }, middle));
     parts.push_back(integrate_from_ends([&](L s, L) { return clock.at(1 / s).phase / s / s; }, 1 / middle));
@@ -126,12 +127,13 @@ long double phase_from_centre(const RadialMotion<Potential>& motion, const Radia
 }
 }  // namespace detail
 
-/// The orbit through (q, p), computed in long double. Quantities below the rounding of R, the type of the state, count
-/// as 0: an angular momentum, the distance from a circle, the energy of a parabola.
+/// Describes the orbit through (q, p), computed in long double. An angular momentum, the distance from a circle and the
+/// energy of a parabola count as 0 if they are below the rounding of R, the type of the state.
 ///
-/// The apsidal angle counts as commensurable within 1024 roundings of R. It must be more than one rounding, because the
-/// angle moves with the state's; and it must be small: a fraction with a denominator up to 32 is met by chance with the
-/// probability (3/pi^2) 32^2 * 2 * 1024 roundings, 1.4e-10 in double.
+/// The apsidal angle counts as commensurable within 1024 roundings of R. The tolerance has to be larger than one
+/// rounding, because the rounding of the state changes the angle. It also has to be small: by chance, an angle is
+/// within it of a fraction with a denominator up to 32 with the probability (3/pi^2) 32^2 * 2 * 1024 roundings, 1.4e-10
+/// in double.
 template <class R, class Potential>
 CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Vector<R, 2>& q, const Vector<R, 2>& p) {
   using L = long double;

@@ -36,7 +36,7 @@ struct GravityModel : Particles<R> {
   S pull(const S& u, std::size_t i, std::size_t j) const {
     return Law::pull(strength(i, j), u);
   }
-  /// The strength of a kick is symmetric in i and j to the last bit.
+  /// The strength of a kick is symmetric in i and j, bit for bit.
   template <class F>
   auto pull_times(const F& factor) const {
     return [this, s = F(factor * constant)](const F& u, std::size_t i, std::size_t j) {
@@ -78,7 +78,7 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
   using Base::particles;
   using Base::space;
 
-  /// @param dimensions of space, 2 or 3
+  /// @param dimensions the dimension of space, 2 or 3
   Gravity(const std::vector<R>& masses, const R& gravitational_constant, const R& softening, std::size_t dimensions)
       : Base(model_of(masses, gravitational_constant, softening, dimensions)) {}
 
@@ -111,7 +111,7 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
       for (std::size_t j = i + 1; j < particles(); ++j) {
         S d[3]{};
         const S u = this->square_of(q, i, j, d);
-        S half_rate(0);  // of u
+        S half_rate(0);  // half of du/dt
         for (std::size_t k = 0; k < n; ++k) half_rate += d[k] * (v[i * n + k] - v[j * n + k]);
         const S inverse = R(1) / u;
         const S weight = inverse * inverse * inverse;

@@ -18,7 +18,7 @@ namespace hamflow {
 /// The particles of a model.
 template <class R>
 struct Particles {
-  std::size_t space = 2;  // or 3
+  std::size_t space = 2;  // dimension of space, 2 or 3
   std::vector<R> masses;  // one for each particle
   std::vector<R> inverse_masses;
   R total_mass{};
@@ -173,8 +173,8 @@ class PairSystem {
     return model_->radial_law(u);
   }
 
-  /// The numbers of components of angular momentum, linear momentum and centre of mass, as far as the model conserves
-  /// them. Stored in place, because they are needed at every step.
+  /// The numbers of components of angular momentum, linear momentum and centre of mass; 0 if the model does not
+  /// conserve the quantity. They are stored in place, because they are needed at every step.
   struct Sizes {
     std::array<std::size_t, 3> entry{};
     std::size_t count = 0;
@@ -216,7 +216,7 @@ class PairSystem {
   }
 
  protected:
-  /// u of a pair, and d.
+  /// Returns u of a pair, and sets d.
   template <class S>
   S square_of(const Vector<S, dynamic>& q, std::size_t i, std::size_t j, S* d) const {
     const std::size_t n = space();
@@ -225,7 +225,7 @@ class PairSystem {
   }
 
  private:
-  /// Not at numbers with derivatives or of recordings.
+  /// Returns all pairs for dual numbers and recordings; neighbour lists are used only for plain numbers.
   template <class S>
   auto pairs_at([[maybe_unused]] const Vector<S, dynamic>& q) const {
     if constexpr (std::is_same_v<S, R> && requires { model_->near; }) {
@@ -295,7 +295,7 @@ class PairSystem {
       }
     }
   }
-  /// d^2 V_ij/dq_i^2 in the blocks ii and jj, its negative in ij and ji.
+  /// Adds d^2 V_ij/dq_i^2 to the blocks ii and jj, and subtracts it from ij and ji.
   template <class S>
   void add_pair(const Vector<S, dynamic>& q, std::size_t i, std::size_t j, Matrix<S, dynamic>& h) const {
     const std::size_t n = space();

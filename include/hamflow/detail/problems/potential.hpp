@@ -19,8 +19,8 @@ struct CentralDerivatives {
   S curvature;  // 4 W''(u)
 };
 
-/// The start that every potential has: a potential lists it last, with an energy and an angular momentum that suit the
-/// parameters of its example.
+/// Returns the start by energy, which every potential has. A potential lists it last, with an energy and an angular
+/// momentum that fit the parameters of its example.
 inline StartInfo start_by_energy(Texts example) {
   return {.kind = "",
           .keys = {"energy", "angular_momentum"},
@@ -46,17 +46,17 @@ template <class V, class S, class F>
 concept HasFastSlope = requires(const V& potential, const S& u, const F& factor) {
   potential.fast_slope(u, factor);
 };
-/// Static, refused_parameters(given): as of a problem (detail/core/optional_functions.hpp).
+/// Static, refused_parameters(given): as for a problem (detail/core/optional_functions.hpp).
 template <class V, class R>
 concept HasRefusedParameters = requires(const Parameters<R>& given) {
   { V::refused_parameters(given) } -> std::same_as<std::pair<std::string, std::string>>;
 };
-/// Static, derive(kind, orbit, given): as of a problem, for potentials whose strength follows from the orbit.
+/// Static, derive(kind, orbit, given): as for a problem, for potentials whose strength follows from the orbit.
 template <class V, class R>
 concept HasDerive = requires(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
   V::derive(kind, orbit, given);
 };
-/// Static, start(kind, mass, given, orbit, conditions): the starts of info() but that by energy.
+/// Static, start(kind, mass, given, orbit, conditions): the starts of info(), except the one by energy.
 template <class V, class R>
 concept HasStart = requires(const std::string& kind, const R& mass, const Parameters<R>& values,
                             Conditions& conditions) {
