@@ -1,6 +1,6 @@
 // The implicit midpoint rule in SUNDIALS' ARKODE, with fixed steps, Newton's method with the exact Jacobian, and the
 // dense solver. This file defines the table, because not every release of ARKODE has it.
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 #if HAMFLOW_BENCH_ARKODE
 
@@ -105,7 +105,7 @@ Run run_midpoint(const Task& task, std::int64_t steps) {
 
 }  // namespace
 
-std::vector<Peer> arkode_peers() {
+std::vector<OtherLibraryMethod> arkode_peers() {
   // Newton's method leaves at most a tenth of the tolerance in each step, 1e-14/(4 epsilon) = 11 bounds, and an error
   // from Jacobians of earlier iterations.
   return {{"arkode", "midpoint", "cg(1,1)", 2, 2000, run_midpoint}};
@@ -118,7 +118,7 @@ std::string arkode_version() { return "SUNDIALS " SUNDIALS_VERSION; }
 #else
 
 namespace bench {
-std::vector<Peer> arkode_peers() { return {}; }
+std::vector<OtherLibraryMethod> arkode_peers() { return {}; }
 std::string arkode_version() { return "without SUNDIALS"; }
 }  // namespace bench
 

@@ -38,17 +38,17 @@ double median(std::vector<double> v) {
 }
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
 
-struct Racer {
+struct TimedMethod {
   std::string name;
   std::function<void()> run;
   std::vector<double> seconds{};
 };
 /// @param opponents the number of racers, from the first on, whose times ratios are divided by
 /// @param calls the calls of a racer in a round
-void race(const char* title, std::vector<Racer> racers, std::size_t opponents, int calls, double units) {
+void race(const char* title, std::vector<TimedMethod> racers, std::size_t opponents, int calls, double units) {
   for (int round = 0; round < 15; ++round) {
     for (std::size_t r = 0; r < racers.size(); ++r) {
-      Racer& racer = racers[(r + static_cast<std::size_t>(round)) % racers.size()];
+      TimedMethod& racer = racers[(r + static_cast<std::size_t>(round)) % racers.size()];
       const double begin = processor_seconds();
       for (int n = 0; n < calls; ++n) racer.run();
       racer.seconds.push_back((processor_seconds() - begin) / calls);
@@ -56,7 +56,7 @@ void race(const char* title, std::vector<Racer> racers, std::size_t opponents, i
   }
   // The order rotates, but the k-th time of every racer is from the same round.
   std::printf("%s\n", title);
-  for (const Racer& racer : racers) {
+  for (const TimedMethod& racer : racers) {
     std::printf("  %-16s %8.3f ns a pair", racer.name.c_str(), median(racer.seconds) / units * 1e9);
     for (std::size_t o = 0; o < opponents; ++o) {
       std::vector<double> ratio;
@@ -70,7 +70,7 @@ void race(const char* title, std::vector<Racer> racers, std::size_t opponents, i
 template <class Pair, std::size_t Space>
 void all_pairs(const char* title, std::size_t per_side, BulkPairSystem::Law law) {
   std::mt19937_64 random(1);
-  Swarm swarm{Space, per_side * per_side * (Space == 3 ? per_side : 1), {}, {}};
+  ParticleArrays swarm{Space, per_side * per_side * (Space == 3 ? per_side : 1), {}, {}};
   std::vector<double> q;
   for (std::size_t i = 0; i < swarm.count; ++i) {
     const std::size_t at[3] = {i % per_side, i / per_side % per_side, i / per_side / per_side};
@@ -84,7 +84,7 @@ void all_pairs(const char* title, std::size_t per_side, BulkPairSystem::Law law)
   s.particles = swarm.count;
   s.law = law;
   std::vector<double> f(q.size());
-  std::vector<Racer> racers{{"plain", [&] { plain_loop<Pair, Space>(swarm); }}};
+  std::vector<TimedMethod> racers{{"plain", [&] { plain_loop<Pair, Space>(swarm); }}};
   if (BulkForces::has(BulkSet::avx2)) racers.push_back({"hand avx2", [&] { loop_avx2<Pair, Space>(swarm); }});
   if (BulkForces::has(BulkSet::avx512)) racers.push_back({"hand avx512", [&] { loop_avx512<Pair, Space>(swarm); }});
   const std::size_t opponents = racers.size();

@@ -9,7 +9,7 @@
 namespace bench {
 
 /// Positions and forces, with one array for each coordinate.
-struct Swarm {
+struct ParticleArrays {
   std::size_t space;
   std::size_t count;
   std::vector<double> x[3];
@@ -41,7 +41,7 @@ struct NewtonPair {
 };
 
 template <class Pair, std::size_t Space>
-[[gnu::noinline]] void plain_loop(Swarm& s) {
+[[gnu::noinline]] void plain_loop(ParticleArrays& s) {
   for (std::size_t k = 0; k < Space; ++k) s.f[k].assign(s.count, 0.0);
   for (std::size_t i = 0; i < s.count; ++i) {
     double own[Space]{};
@@ -64,7 +64,7 @@ template <class Pair, std::size_t Space>
 
 /// The loop over all pairs, with `width` partners of a particle in a vector.
 template <class Pair, std::size_t Space, std::size_t width>
-[[gnu::always_inline]] inline void vector_loop_of(Swarm& s) {
+[[gnu::always_inline]] inline void vector_loop_of(ParticleArrays& s) {
   typedef double V __attribute__((vector_size(width * sizeof(double))));
   const auto load = [](const double* from) __attribute__((always_inline)) {
     V v;
@@ -112,7 +112,7 @@ template <class Pair, std::size_t Space, std::size_t width>
   }
 }
 template <class Pair, std::size_t Space>
-[[gnu::noinline, gnu::target("avx2")]] void loop_avx2(Swarm& s) {
+[[gnu::noinline, gnu::target("avx2")]] void loop_avx2(ParticleArrays& s) {
   vector_loop_of<Pair, Space, 4>(s);
 }
 // Clang uses whole registers for such vectors anyway, and does not know this option.
@@ -122,7 +122,7 @@ template <class Pair, std::size_t Space>
 #define BENCH_AVX512 "avx512f,avx512dq,prefer-vector-width=512"
 #endif
 template <class Pair, std::size_t Space>
-[[gnu::noinline, gnu::target(BENCH_AVX512)]] void loop_avx512(Swarm& s) {
+[[gnu::noinline, gnu::target(BENCH_AVX512)]] void loop_avx512(ParticleArrays& s) {
   vector_loop_of<Pair, Space, 8>(s);
 }
 

@@ -9,7 +9,7 @@
 #include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "library.hpp"
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 namespace bench {
 
@@ -179,7 +179,7 @@ std::vector<Workload> element_workloads(const Task& task) {
   Workload midpoint{"cg(1,1)", task.h_text, {}, {}, w.bound};
   add_typed(midpoint, task, hamflow::Cg{{.quadrature = 1}}, 0, true);
   midpoint.contenders.front().against.clear();
-  add_peers(midpoint, task);
+  add_other_libraries(midpoint, task);
   std::vector<Workload> all{w};
   if (midpoint.contenders.size() > 1) all.push_back(midpoint);
   using hamflow::CgOfDegree;

@@ -32,7 +32,7 @@ class Walk {
   using P = decltype(System::template made<double>());
   using Precise = decltype(System::template made<Long>());
   static constexpr std::size_t n = P::dimension;
-  using E = Observed<typename Split<P, Precise>::E>;
+  using E = RecordingEquations<typename Split<P, Precise>::E>;
   using State = PhasePoint<A, n>;
   using Sums = std::array<double, sources + 1>;  // the parts, then their sum
 

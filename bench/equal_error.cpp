@@ -7,20 +7,20 @@ namespace bench {
 
 namespace {
 
-// A course that takes longer than this (microseconds) is timed only in the first `few_rounds` rounds.
+// A course that takes longer than this (microseconds) is timed only in the first `rounds_of_long_courses` rounds.
 constexpr double long_course = 2e5;
-constexpr int few_rounds = 3;
+constexpr int rounds_of_long_courses = 3;
 
 std::int64_t even(double steps) { return 2 * static_cast<std::int64_t>(std::ceil(steps / 2)); }
 
 /// Finds the smallest even number of steps that reaches the target, to 1 %. A bracket comes from error ~ steps^-order,
 /// which holds for small errors; bisection follows. It returns 0 steps if rounding errors exceed the target.
-Placed place(const Racer& racer, double target, const Course& course) {
+Placed place(const TimedMethod& racer, double target, const Course& course) {
   std::int64_t steps = course.first_steps;
   Placed placed{racer.name, 0, 0, 0, {}, {}};
   std::int64_t too_few = 0;
   for (int attempt = 0; attempt < 60; ++attempt) {
-    const Racer::Lap lap = racer.run(steps, 1);
+    const TimedMethod::CourseTiming lap = racer.run(steps, 1);
     if (lap.error <= target) {
       placed.steps = steps;
       placed.error = lap.error;
@@ -49,12 +49,12 @@ Placed place(const Racer& racer, double target, const Course& course) {
 
 }  // namespace
 
-std::vector<Race> race(const Plan& plan, const Course& course) {
-  std::vector<Race> races;
+std::vector<EqualErrorComparison> race(const Plan& plan, const Course& course) {
+  std::vector<EqualErrorComparison> races;
   for (const double target : {1e-6, 1e-9, 1e-12}) {
-    Race race{course.name, target, {}};
-    std::vector<Racer> all;
-    for (const Racer& racer : course.racers) {
+    EqualErrorComparison race{course.name, target, {}};
+    std::vector<TimedMethod> all;
+    for (const TimedMethod& racer : course.racers) {
       if (racer.order < 4 && target < 1e-9) continue;  // they would need 10^8 steps
       const Placed placed = place(racer, target, course);
       if (placed.steps == 0) continue;
@@ -71,7 +71,7 @@ std::vector<Race> race(const Plan& plan, const Course& course) {
     for (int round = 0; round < plan.rounds; ++round) {
       for (std::size_t i = 0; i < all.size(); ++i) {
         const std::size_t at = (i + static_cast<std::size_t>(round)) % all.size();
-        if (round >= few_rounds && times[at].front() > long_course) continue;
+        if (round >= rounds_of_long_courses && times[at].front() > long_course) continue;
         const auto lap = all[at].run(race.placed[at].steps, laps[at]);
         times[at].push_back(lap.nanoseconds / 1000 / static_cast<double>(laps[at]));
       }

@@ -7,21 +7,21 @@
 namespace bench {
 
 /// A method that runs a course.
-struct Racer {
+struct TimedMethod {
   std::string name;
   int order = 0;
   /// Runs the course `laps` times with `steps` steps each. A Lap has the time of all, and the error of the first.
-  struct Lap {
+  struct CourseTiming {
     double nanoseconds = 0;
     double error = 0;
     double forces = 0;
   };
-  std::function<Lap(std::int64_t steps, std::int64_t laps)> run;
+  std::function<CourseTiming(std::int64_t steps, std::int64_t laps)> run;
 };
 
 struct Course {
   std::string name;
-  std::vector<Racer> racers;  // ratios divide by the first one
+  std::vector<TimedMethod> racers;  // ratios divide by the first one
   std::int64_t first_steps = 400;
   std::int64_t most_steps = 200'000'000;
 };
@@ -39,13 +39,13 @@ struct Placed {
   Spread ratio;  // to the time of the first, taken within each round
 };
 
-struct Race {
+struct EqualErrorComparison {
   std::string course;
   double target = 0;
   std::vector<Placed> placed;
 };
 
 /// Races for errors of 1e-6, 1e-9 and 1e-12. A method that needs more than the maximum number of steps is left out.
-std::vector<Race> race(const Plan& plan, const Course& course);
+std::vector<EqualErrorComparison> race(const Plan& plan, const Course& course);
 
 }  // namespace bench

@@ -9,7 +9,7 @@
 #include "hamflow/methods/splittings/euler_a.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "mclachlan.hpp"
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 namespace bench {
 
@@ -143,7 +143,7 @@ Workload workload(const Task& task, const std::string& method, int forces, const
   add_library_contenders(w, task, recipe, 1.03, true);
   add_compensated_contenders(w, task);
   add_lane_contenders(w, task);
-  add_peers(w, task);
+  add_other_libraries(w, task);
   return w;
 }
 
@@ -154,7 +154,7 @@ Workload drift_first(const Task& task, const std::string& method, const Recipe& 
   Workload w =
       begin(task, method, static_cast<int>(actions / 2), drift_first_chain(actions), hand_drift_first<numbers>);
   add_typed(w, task, recipe, 1.03, true);
-  add_peers(w, task);
+  add_other_libraries(w, task);
   return w;
 }
 

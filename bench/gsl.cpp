@@ -1,7 +1,7 @@
 // The GNU Scientific Library, with fixed steps by gsl_odeiv2_step_apply. Its rk4, rk2imp and rk4imp compute each step
 // twice, as one step and as two half steps, to estimate the error, and return the half steps. A call with 2 h therefore
 // counts as two steps of h.
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 #if HAMFLOW_BENCH_GSL
 
@@ -97,7 +97,7 @@ Runner runner(const gsl_odeiv2_step_type* type, bool halves) {
 
 }  // namespace
 
-std::vector<Peer> gsl_peers() {
+std::vector<OtherLibraryMethod> gsl_peers() {
   // Newton's method leaves up to newton_tolerance in each step, 1e-12/(4 epsilon) = 1100 bounds.
   return {{"gsl", "rk4", "rk4", 4, 2, runner(gsl_odeiv2_step_rk4, true)},
           {"gsl", "rk8pd", "", 8, 1, runner(gsl_odeiv2_step_rk8pd, false)},
@@ -112,7 +112,7 @@ std::string gsl_version() { return "GSL " GSL_VERSION; }
 #else
 
 namespace bench {
-std::vector<Peer> gsl_peers() { return {}; }
+std::vector<OtherLibraryMethod> gsl_peers() { return {}; }
 std::string gsl_version() { return "without GSL"; }
 }  // namespace bench
 

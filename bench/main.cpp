@@ -80,9 +80,9 @@ int main(int argc, char** argv) try {
   if (only.empty() || only == "equal-error" || only == "planets") courses.push_back(bench::outer_planets());
   if (workloads.empty() && courses.empty()) throw std::runtime_error("no workload of the method '" + only + "'");
   const auto measured = bench::measure(workloads, bench::comparisons(), plan);
-  std::vector<bench::Race> races;
+  std::vector<bench::EqualErrorComparison> races;
   for (const bench::Course& course : courses) {
-    for (const bench::Race& one : bench::race(plan, course)) races.push_back(one);
+    for (const bench::EqualErrorComparison& one : bench::race(plan, course)) races.push_back(one);
   }
   fmt::print("{}\n", json ? bench::as_json(measured, races, plan) : bench::as_text(measured, races, plan));
   return 0;

@@ -1,6 +1,6 @@
 // Boost.Odeint as its documentation shows it: states are std::array, and systems are function objects that the compiler
 // can inline.
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 #if HAMFLOW_BENCH_ODEINT
 
@@ -86,7 +86,7 @@ Runner runner(Loop loop, int forces) {
 
 }  // namespace
 
-std::vector<Peer> odeint_peers() {
+std::vector<OtherLibraryMethod> odeint_peers() {
   using Euler = odeint::symplectic_euler<Two>;
   using M4 = odeint::symplectic_rkn_sb3a_m4_mclachlan<Two>;
   using Sb3a = odeint::symplectic_rkn_sb3a_mclachlan<Two>;
@@ -106,7 +106,7 @@ std::string odeint_version() { return "Boost.Odeint " BOOST_LIB_VERSION; }
 #else
 
 namespace bench {
-std::vector<Peer> odeint_peers() { return {}; }
+std::vector<OtherLibraryMethod> odeint_peers() { return {}; }
 std::string odeint_version() { return "without Boost.Odeint"; }
 }  // namespace bench
 

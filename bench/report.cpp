@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 namespace bench {
 
@@ -64,7 +64,7 @@ Json json_of(const Compared& c) {
           {"met", c.met()}};
 }
 
-Json json_of(const Race& race) {
+Json json_of(const EqualErrorComparison& race) {
   Json racers = Json::array();
   for (const Placed& r : race.placed) {
     racers.push_back({{"contender", r.name},
@@ -86,7 +86,7 @@ std::string text_of(const Compared& c) {
                      c.comparison.goal, c.met() ? "met" : "MISSED");
 }
 
-std::string text_of(const Race& race) {
+std::string text_of(const EqualErrorComparison& race) {
   std::string out = fmt::format("\n{} with an error of the position of at most {:.0e}\n", race.course, race.target);
   out += fmt::format("  {:24} {:>9} {:>9} {:>11} {:>30}   {}\n", "", "steps", "error", "forces/step", "us", "ratio");
   for (const Placed& r : race.placed) {
@@ -99,7 +99,7 @@ std::string text_of(const Race& race) {
 
 }  // namespace
 
-std::string as_json(const Measured& measured, const std::vector<Race>& races, const Plan& plan) {
+std::string as_json(const Measured& measured, const std::vector<EqualErrorComparison>& races, const Plan& plan) {
   Json document{{"benchmark", "hamflow"},
                 {"machine", {{"cpu", cpu_model()}, {"threads", std::thread::hardware_concurrency()}}},
                 {"compiler", compiler},
@@ -115,11 +115,11 @@ std::string as_json(const Measured& measured, const std::vector<Race>& races, co
     for (const Result& r : table.results) document["results"].push_back(json_of(table, r));
   }
   for (const Compared& c : measured.compared) document["compared"].push_back(json_of(c));
-  for (const Race& race : races) document["equal_error"].push_back(json_of(race));
+  for (const EqualErrorComparison& race : races) document["equal_error"].push_back(json_of(race));
   return document.dump(2);
 }
 
-std::string as_text(const Measured& measured, const std::vector<Race>& races, const Plan& plan) {
+std::string as_text(const Measured& measured, const std::vector<EqualErrorComparison>& races, const Plan& plan) {
   std::string out = fmt::format("{}, {}, {} ({})\n", cpu_model(), compiler, HAMFLOW_BENCH_BUILD, HAMFLOW_BENCH_FLAGS);
   out += fmt::format("{}; {}; {}
 ", odeint_version(), gsl_version(), arkode_version());
@@ -141,7 +141,7 @@ std::string as_text(const Measured& measured, const std::vector<Race>& races, co
   }
   if (!measured.compared.empty()) out += "\nAcross methods\n";
   for (const Compared& c : measured.compared) out += text_of(c);
-  for (const Race& race : races) out += text_of(race);
+  for (const EqualErrorComparison& race : races) out += text_of(race);
   return out;
 }
 

@@ -8,7 +8,7 @@
 
 namespace bench {
 
-std::string as_text(const Measured& measured, const std::vector<Race>& races, const Plan& plan);
-std::string as_json(const Measured& measured, const std::vector<Race>& races, const Plan& plan);
+std::string as_text(const Measured& measured, const std::vector<EqualErrorComparison>& races, const Plan& plan);
+std::string as_json(const Measured& measured, const std::vector<EqualErrorComparison>& races, const Plan& plan);
 
 }  // namespace bench

@@ -37,7 +37,7 @@ using Parts = std::array<double, sources>;
 
 /// The equations E, which also store the last iterate of Newton's method in each step.
 template <class E>
-class Observed : public E {
+class RecordingEquations : public E {
  public:
   struct Last {
     typename E::Variables x{};
@@ -80,7 +80,7 @@ class NaturalParts {
   NaturalParts(const P& problem, const Precise& precise, double h, int s)
       : problem_(problem), precise_(precise), h_(h), rules_(s) {}
 
-  Parts operator()(const PhasePoint<A, n>& from, const typename Observed<E>::Last& last) const {
+  Parts operator()(const PhasePoint<A, n>& from, const typename RecordingEquations<E>::Last& last) const {
     using V = Vector<double, n>;
     using L = Vector<Long, n>;
     const V& d = last.taken.q;
@@ -188,7 +188,7 @@ class GeneralParts {
   GeneralParts(const P& problem, const Precise& precise, double h, int s)
       : problem_(problem), precise_(precise), h_(h), rules_(s) {}
 
-  Parts operator()(const PhasePoint<A, n>& from, const typename Observed<E>::Last& last) const {
+  Parts operator()(const PhasePoint<A, n>& from, const typename RecordingEquations<E>::Last& last) const {
     using Z = Vector<double, m>;
     const Z u = detail::stacked(last.taken.q, last.taken.p);
     Z factor{};  // the change of the energy is factor . (a, b)

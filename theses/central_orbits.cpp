@@ -44,7 +44,7 @@ struct CentralField {
 };
 
 /// Whether V_eff(r') = E for some r' > r, which bounds the motion.
-bool meets_beyond(const OrbitCase& orbit, double r) {
+bool is_bounded_outside(const OrbitCase& orbit, double r) {
   const double E = orbit.energy();
   double at = r * 1.01;
   for (int i = 0; i < 400; ++i, at *= 1.06) {
@@ -74,7 +74,7 @@ OrbitPath follow(const OrbitCase& orbit, const Options& options) {
     path.rate.push_back(rate);
     // On a circle the rate is only rounding, and changes its sign often. 90 steps are about one revolution.
     if (path.minima + path.maxima >= 3 && step >= 90) break;
-    if (r > 30 * start && rate > 0 && !meets_beyond(orbit, r)) {
+    if (r > 30 * start && rate > 0 && !is_bounded_outside(orbit, r)) {
       path.escaped = true;
       break;
     }
@@ -93,7 +93,7 @@ using Six = std::array<std::array<long double, 6>, 6>;
 
 /// Diagonalises a symmetric matrix by Jacobi rotations. The eigenvalues end on its diagonal; the columns of the result
 /// are the eigenvectors.
-Six diagonalised(Six& m) {
+Six diagonalise(Six& m) {
   Six v{};
   for (std::size_t i = 0; i < 6; ++i) v[i][i] = 1;
   for (int sweep = 0; sweep < 40; ++sweep) {
@@ -126,7 +126,7 @@ Six diagonalised(Six& m) {
 
 /// Transforms the points of a path to mean 0 and covariance 1, by the Cholesky factor of their covariance. It omits
 /// distant points of an escaping path, which show little more than the asymptote.
-std::vector<std::array<long double, 2>> whitened(const OrbitPath& path) {
+std::vector<std::array<long double, 2>> normalised_points(const OrbitPath& path) {
   std::vector<std::array<long double, 2>> all;
   const double limit = 6 * std::hypot(path.points.front()[0], path.points.front()[1]);
   for (const auto& point : path.points) {
@@ -175,7 +175,7 @@ OrbitPath orbit_path_confirmed(const OrbitCase& orbit) {
 }
 
 ConicFit conic_through(const OrbitPath& path) {
-  const auto points = whitened(path);
+  const auto points = normalised_points(path);
   Six m{};
   for (const auto& [x, y] : points) {
     const std::array<long double, 6> row{x * x, x * y, y * y, x, y, 1};
@@ -183,7 +183,7 @@ ConicFit conic_through(const OrbitPath& path) {
       for (std::size_t j = 0; j < 6; ++j) m[i][j] += row[i] * row[j] / static_cast<long double>(points.size());
     }
   }
-  const Six v = diagonalised(m);
+  const Six v = diagonalise(m);
   std::size_t least = 0;
   for (std::size_t i = 1; i < 6; ++i) {
     if (m[i][i] < m[least][least]) least = i;

@@ -60,15 +60,15 @@ double parting(Study& study, const std::string& name, TubeRun run, const LateMot
 }
 
 /// As parting() for a shift of 1e-9. The uncertainty is the difference to a shift of 2e-9.
-Measured measured_parting(Study& study, const std::string& name, const TubeRun& run, const LateMotion& late,
-                          const std::string& how) {
+Measured measured_separation(Study& study, const std::string& name, const TubeRun& run, const LateMotion& late,
+                             const std::string& how) {
   const double one = parting(study, name, run, late, 1e-9), other = parting(study, name + "_wider", run, late, 2e-9);
   return {one, std::abs(one - other), how};
 }
 
 /// Measures how far from a late motion other motions are regular, by their own exponents: with the rule of the listing,
 /// and in the true flow, with located bounces.
-void tell_neighbourhood(Study& study, const LateMotion& late, TextTable& table) {
+void tabulate_neighbourhood(Study& study, const LateMotion& late, TextTable& table) {
   std::vector<double> shifts{0};
   if (study.sized(0, 1, 1) > 0) shifts = {0, 1e-4, 1e-3, 1e-2, 0.1};
   for (const char* const rule : {"reject", "event"}) {
@@ -84,7 +84,7 @@ void tell_neighbourhood(Study& study, const LateMotion& late, TextTable& table) 
 }
 
 /// A motion takes up to 910 time units for one round. Exponents mean something only after a few rounds.
-constexpr double some_rounds = 2000;
+constexpr double least_time_for_exponents = 2000;
 
 /// Claims that a late motion is regular with the rule of the listing. It uses a tangent vector of the motion itself.
 /// Neighbours at a finite distance could leave the regular set, whose width is unknown.
@@ -92,7 +92,7 @@ void claim_regular(Study& study, const LateMotion& late) {
   const auto steps = study.sized<std::int64_t>(20000, 200000, 1000000);
   const double time = 4 * 0.01 * static_cast<double>(steps);
   std::vector<Measured> measured;
-  if (time >= some_rounds) {
+  if (time >= least_time_for_exponents) {
     const TubeWatch own{.start = {.eps = late.eps}, .q = late.q, .p = late.p};
     const Exponents of =
         exponents_from(study, {.run = {.rule = "reject"}}, own, std::string(late.name) + "_own", steps);
@@ -109,7 +109,8 @@ void claim_regular(Study& study, const LateMotion& late) {
               at_most(3,
                       "largest Lyapunov exponent over log T/T: 1 where tangents grow like t; a chaotic motion's is "
                       "beyond 30"),
-              measured, Grounds::program, fmt::format("{:g} time units, some rounds: the default size", some_rounds));
+              measured, Grounds::program,
+              fmt::format("{:g} time units, some rounds: the default size", least_time_for_exponents));
 }
 
 }  // namespace
@@ -136,16 +137,16 @@ void claim_late_motions(Study& study) {
                 at_most(1e6,
                         "how many times as far apart neighbours come that were 1e-9 apart: a chaotic motion has "
                         "parted them 3e8 times and more"),
-                {measured_parting(study, "element", {.rule = "event", .method = "cg(3)"}, late,
-                                  "continued with cg(3) and event, dt = 0.01"),
-                 measured_parting(study, "event", {.rule = "event"}, late, "with stv4 and event")},
+                {measured_separation(study, "element", {.rule = "event", .method = "cg(3)"}, late,
+                                     "continued with cg(3) and event, dt = 0.01"),
+                 measured_separation(study, "event", {.rule = "event"}, late, "with stv4 and event")},
                 Grounds::program, "longer runs, --full");
     std::vector<std::string> row{late.name};
     for (const double shift : shifts) {
       row.push_back(fmt::format("{:.3g}", parting(study, fmt::format("reject_{:.0e}", shift), {}, late, shift)));
     }
     partings.rows.push_back(std::move(row));
-    tell_neighbourhood(study, late, table);
+    tabulate_neighbourhood(study, late, table);
   }
   study.table(std::move(partings));
   study.table(std::move(table));

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "study.hpp"
-#include "tube_watch.hpp"
+#include "tube_runs.hpp"
 
 namespace hamflow::reproduction {
 

@@ -18,7 +18,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/detail/core/option_info.hpp"
 #include "hamflow/detail/workflow/rejection_json.hpp"
-#include "hamflow/figures/while_drawing.hpp"
+#include "hamflow/figures/stop_drawing.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "progress.hpp"
 #include "reproduce.hpp"
@@ -144,7 +144,7 @@ void show_claim(const Claim& claim) {
 void show_claims(const std::string& id, const std::filesystem::path& folder) {
   std::error_code none;
   const bool is_there = std::filesystem::exists(folder / "reproduction", none);
-  const auto kept = is_there ? kept_experiment(folder, id) : std::nullopt;
+  const auto kept = is_there ? stored_experiment(folder, id) : std::nullopt;
   if (!kept) {
     std::cout << fmt::format(
         "\n  The experiment states its claims when it runs, and {} has none from this version. To get them:\n"
@@ -161,7 +161,7 @@ void show_claims(const std::string& id, const std::filesystem::path& folder) {
 int show_experiment(const std::string& id, const std::string& folder) {
   for (const ExperimentInfo& info : experiment_infos()) {
     if (info.id != id) continue;
-    if (!folder.empty()) kept_experiment(folder, id);  // throws if the folder is not a reproduction
+    if (!folder.empty()) stored_experiment(folder, id);  // throws if the folder is not a reproduction
     std::cout << fmt::format(
         "{}\n  {}\n  {}, {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n"
         "  sizes: --quick, default, --full; all experiments together take a minute, 20 minutes, 10 hours on 2 "
@@ -197,7 +197,7 @@ int failed(bool json, const std::string& kind, const std::string& message, int s
 int run(const Options& options) {
   const bool json = options.json;
   bool begun = false;
-  const figures::WhileDrawing watch([] { return !interrupted(); });
+  const figures::StopDrawingScope watch([] { return !interrupted(); });
   try {
     require_memory();
     if (options.list) return list_experiments(json);

@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "embedded.hpp"
+#include "reduce_svg.hpp"
 #include "report.hpp"
-#include "slim_svg.hpp"
 #include "store.hpp"
 
 namespace hamflow::reproduction {
@@ -187,12 +187,13 @@ std::string table_html(const TextTable& table) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string figures_html(const fs::path& folder, const Kept& kept) {
+std::string figures_html(const fs::path& folder, const StoredResults& kept) {
   std::string all;
   for (const auto& [name, caption, words] : kept.drawings) {
     all += fmt::format(
         "<figure><figcaption>{}</figcaption><img alt=\"{}\" src=\"data:image/svg+xml;charset=utf-8,{}\"></figure>\n",
-        escaped_html(caption), escaped_html(words), escaped_address(slim_svg(text_of_file(folder / (name + ".svg")))));
+        escaped_html(caption), escaped_html(words),
+        escaped_address(reduce_svg(text_of_file(folder / (name + ".svg")))));
   }
   return all.empty() ? "" : "<div class=\"figures\">\n" + all + "</div>\n";
 }
@@ -208,11 +209,11 @@ std::string quoted(const std::string& word) {
 
 /// Returns shell commands that repeat the scenarios: one for each or, if there are many, the first of each kind and a
 /// loop over the files of the folder.
-std::string commands_of(const std::string& id, const std::vector<KeptScenario>& scenarios) {
+std::string commands_of(const std::string& id, const std::vector<StoredScenario>& scenarios) {
   constexpr std::size_t few = 8, first = 3;
   const std::string folder = "reproduction/" + id + "/";
   std::vector<std::pair<std::string, std::vector<std::string>>> kinds;  // a command and its files
-  for (const KeptScenario& scenario : scenarios) {
+  for (const StoredScenario& scenario : scenarios) {
     auto kind =
         std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return one.first == scenario.command; });
     if (kind == kinds.end()) kind = kinds.insert(kind, {scenario.command, {}});
@@ -250,7 +251,7 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
   if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
   const fs::path folder = top / "reproduction" / info.id;
-  const auto kept = kept_in(folder, fingerprint_of(info.id, report.extent));
+  const auto kept = read_stored_results(folder, fingerprint_of(info.id, report.extent));
   if (kept) text += figures_html(folder, *kept);
   text += claims_html(info.id, report.claims);
   if (!kept) return text;

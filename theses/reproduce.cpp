@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "hamflow/core/error.hpp"
-#include "hamflow/figures/while_drawing.hpp"
+#include "hamflow/figures/stop_drawing.hpp"
 #include "report.hpp"
 #include "shared_work.hpp"
 #include "store.hpp"
@@ -78,7 +78,7 @@ fs::path folder_of(const fs::path& reproduction, const std::string& id) { return
 
 /// Reads a finished experiment of any size from its folder.
 std::optional<ExperimentReport> done_in(const fs::path& folder, const Experiment& experiment) {
-  auto done = kept_of(experiment, folder);
+  auto done = read_stored_experiment(experiment, folder);
   if (!done) return {};
   return ExperimentReport{.info = experiment.info,
                           .status = "done",
@@ -123,7 +123,7 @@ class Run {
       try {
         others.emplace_back([this] { work(); });
       } catch (const std::exception&) {  // the system has no more threads; fewer give the same results
-        shared_.go_without(number_of_threads() - i);
+        shared_.reduce_threads(number_of_threads() - i);
         break;
       }
     }
@@ -147,7 +147,7 @@ class Run {
   /// Runs experiments until none is left, in reverse order: the long ones are at the end of the list, and should not
   /// start last. The order of the reports does not depend on threads.
   void work() {
-    const figures::WhileDrawing asks([this] { return go_on(); });
+    const figures::StopDrawingScope asks([this] { return go_on(); });
     for (std::size_t taken = next_++; taken < reports_.size(); taken = next_++) {
       const std::size_t i = reports_.size() - 1 - taken;
       try {
@@ -169,7 +169,7 @@ class Run {
     const fs::path folder = folder_of(request_.folder, experiment.info.id);
     const fs::path beside = folder.string() + ".next";  // for a larger size, so that a smaller result is kept meanwhile
     const std::string print = fingerprint(experiment, request_.extent);
-    bool keeps_smaller = false;
+    bool keeps_smaller_result = false;
     if (request_.existing == Existing::resume) {
       auto done = done_in(folder, experiment);
       // The program was killed before the larger size replaced the smaller one.
@@ -178,17 +178,17 @@ class Run {
         move(beside, folder);
         done = done_in(folder, experiment);
       }
-      keeps_smaller = done && done->extent < request_.extent;
+      keeps_smaller_result = done && done->extent < request_.extent;
       // A result of a larger size serves for this size, too.
-      if (done && !keeps_smaller) return *std::move(done);
+      if (done && !keeps_smaller_result) return *std::move(done);
     }
     if (!go_on()) {
       report.status = "interrupted";
       return report;
     }
     const auto begin = std::chrono::steady_clock::now();
-    const fs::path place = keeps_smaller ? beside : folder;
-    if (!keeps_smaller) clear(beside);
+    const fs::path place = keeps_smaller_result ? beside : folder;
+    if (!keeps_smaller_result) clear(beside);
     begin_in(place, print, request_.existing == Existing::resume);
     Study study(
         experiment.info, request_.extent, [this] { return go_on(); }, place, shared_);
@@ -196,12 +196,12 @@ class Run {
       experiment.carry_out(study);
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       keep(place, study, print, report.seconds);
-      if (keeps_smaller) {
+      if (keeps_smaller_result) {
         clear(folder);
         move(beside, folder);
       }
       report.claims = study.claims();
-    } catch (const Stopped&) {
+    } catch (const StudyInterrupted&) {
       report.status = "interrupted";
     } catch (const figures::DrawingStopped&) {
       report.status = "interrupted";
@@ -265,7 +265,7 @@ class Run {
 
 }  // namespace
 
-std::optional<ExperimentReport> kept_experiment(const fs::path& folder, const std::string& id) {
+std::optional<ExperimentReport> stored_experiment(const fs::path& folder, const std::string& id) {
   const Experiment& experiment = experiment_of(id);
   if (!is_there(folder / "reproduction")) {
     throw FileError("found in " + folder.string() + " no reproduction; allowed the folder of one");

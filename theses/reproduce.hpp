@@ -65,6 +65,6 @@ ReproduceReport reproduce(const ReproduceRequest& request,
 /// Reads an experiment from the folder of a reproduction, in the largest size that is complete there. Returns nullopt
 /// if the experiment was not run, or was run by another version.   @throws Error for an unknown ID
 /// @throws FileError if the folder is not a reproduction
-std::optional<ExperimentReport> kept_experiment(const std::filesystem::path& folder, const std::string& id);
+std::optional<ExperimentReport> stored_experiment(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace hamflow

@@ -35,7 +35,7 @@ void SharedWork::each(std::size_t count, const std::function<void(std::size_t)>&
   if (job.error) std::rethrow_exception(job.error);
 }
 
-void SharedWork::go_without(std::size_t threads) {
+void SharedWork::reduce_threads(std::size_t threads) {
   const std::lock_guard lock(mutex_);
   busy_ -= threads;
   changed_.notify_all();

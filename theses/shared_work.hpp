@@ -22,7 +22,7 @@ class SharedWork {
   void each(std::size_t count, const std::function<void(std::size_t)>& piece);
 
   /// Reports that `threads` threads could not be started.
-  void go_without(std::size_t threads);
+  void reduce_threads(std::size_t threads);
 
   /// Works on pieces until every thread has called help().
   void help();

@@ -9,7 +9,7 @@
 #include <span>
 #include <sstream>
 
-#include "figure_seen.hpp"
+#include "figure_description.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/detail/core/hash.hpp"
@@ -163,7 +163,7 @@ std::vector<Curves> curves_of(const Study& study) {
 
 void write_h5(const fs::path& file, const Study& study, const std::vector<Curves>& all_curves) {
   ColumnsFile contents{.attributes = {{"experiment", study.info().id}}, .texts = {}, .groups = all_curves};
-  for (const KeptScenario& scenario : study.scenarios()) {
+  for (const StoredScenario& scenario : study.scenarios()) {
     contents.texts.emplace_back("scenario_" + scenario.name, scenario.text);
   }
   write_columns(file, contents);
@@ -210,7 +210,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
            {"tables", Json::array()}};
   std::vector<std::string> files;
   for (const Claim& claim : study.claims()) all["claims"].push_back(json_with_bounds(claim));
-  for (const KeptScenario& scenario : study.scenarios()) {
+  for (const StoredScenario& scenario : study.scenarios()) {
     write_text(folder / files.emplace_back(scenario.name + ".toml"), scenario.text);
     all["scenarios"].push_back({{"name", scenario.name}, {"command", scenario.command}});
   }
@@ -239,7 +239,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   write_text(folder / "result.json", text_of(all));
 }
 
-std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
+std::optional<StoredResults> read_stored_results(const fs::path& folder, const std::string& print) {
   std::ifstream in(folder / "result.json");
   if (!in) return {};
   std::stringstream text;
@@ -248,7 +248,7 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
   if (all.is_discarded() || !all.is_object() || all.value("fingerprint", "") != print) return {};
   try {
     if (!is_as_written(folder, all)) return {};
-    Kept kept;
+    StoredResults kept;
     for (const Json& claim : all.at("claims")) kept.claims.push_back(claim_in(claim));
     kept.notes = all.at("notes").get<std::vector<std::string>>();
     for (const Json& scenario : all.at("scenarios")) {
@@ -265,9 +265,10 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
   }
 }
 
-std::optional<KeptOf> kept_of(const Experiment& experiment, const fs::path& folder) {
+std::optional<StoredExperiment> read_stored_experiment(const Experiment& experiment, const fs::path& folder) {
   for (const WorkExtent extent : {WorkExtent::full, WorkExtent::usual, WorkExtent::quick}) {
-    if (auto kept = kept_in(folder, fingerprint(experiment, extent))) return KeptOf{*std::move(kept), extent};
+    if (auto kept = read_stored_results(folder, fingerprint(experiment, extent)))
+      return StoredExperiment{*std::move(kept), extent};
   }
   return {};
 }

@@ -12,11 +12,11 @@
 namespace hamflow::reproduction {
 
 /// The stored results of an experiment that the report needs.
-struct Kept {
+struct StoredResults {
   std::vector<Claim> claims;
   std::vector<std::string> notes;
   std::vector<TextTable> tables;
-  std::vector<KeptScenario> scenarios;  // without texts, which are separate files
+  std::vector<StoredScenario> scenarios;  // without texts, which are separate files
   struct Drawing {
     std::string name, caption, in_words;
   };
@@ -34,17 +34,18 @@ std::string fingerprint_of(const std::string& id, WorkExtent extent);
 /// Returns "quick", "default" or "full".
 std::string name_of(WorkExtent extent);
 /// Stored results and their extent.
-struct KeptOf {
-  Kept kept;
+struct StoredExperiment {
+  StoredResults kept;
   WorkExtent extent;
 };
-std::optional<KeptOf> kept_of(const Experiment& experiment, const std::filesystem::path& folder);
+std::optional<StoredExperiment> read_stored_experiment(const Experiment& experiment,
+                                                       const std::filesystem::path& folder);
 
 /// Writes all files of an experiment, with figures as SVG, PDF and PNG. result.json is written last, so that the folder
 /// of a killed program does not count as finished.   @throws FileError
 void keep(const std::filesystem::path& folder, const Study& study, const std::string& fingerprint, double seconds);
 /// Reads stored results. Returns nullopt if there are none, if the fingerprint differs, if a verdict does not follow
 /// from its numbers, or if a file is missing or was changed.
-std::optional<Kept> kept_in(const std::filesystem::path& folder, const std::string& fingerprint);
+std::optional<StoredResults> read_stored_results(const std::filesystem::path& folder, const std::string& fingerprint);
 
 }  // namespace hamflow::reproduction

@@ -73,13 +73,13 @@ ReversalReport Study::reverse(const std::string& name, const std::string& toml, 
   const Scenario scenario = read(name, toml, sets);
   has_scenario(name, scenario.text, "reverse");
   ReversalReport report = reverse_scenario(scenario, [this](std::int64_t) { return goes_on(); });
-  if (report.status == "interrupted") throw Stopped{};
+  if (report.status == "interrupted") throw StudyInterrupted{};
   keep_scenario(name, scenario.text, "reverse");
   return report;
 }
 
 bool Study::has_scenario(const std::string& name, const std::string& text, const std::string& command) const {
-  const auto kept = std::ranges::find(scenarios_, name, &KeptScenario::name);
+  const auto kept = std::ranges::find(scenarios_, name, &StoredScenario::name);
   if (kept == scenarios_.end()) return false;
   if (kept->text == text && kept->command == command) return true;
   throw Error("two scenarios of " + info_.id + " have the name " + name + ": each is kept by its own");
@@ -116,7 +116,7 @@ Trajectory Study::try_run(const std::string& name, const std::string& toml, cons
     trajectory = {};
     trajectory.report = hamflow::run(scenario, settings);
   }
-  if (trajectory.report.status == "interrupted") throw Stopped{};
+  if (trajectory.report.status == "interrupted") throw StudyInterrupted{};
   keep_scenario(name, scenario.text);
   return trajectory;
 }

@@ -53,14 +53,14 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-struct KeptScenario {
+struct StoredScenario {
   std::string name;
   std::string text;
   std::string command = "run";  // the command of hamflow that repeats it
 };
 
 /// Thrown after Ctrl-C. The next reproduction with --resume runs what is missing.
-struct Stopped {};
+struct StudyInterrupted {};
 
 class Study {
  public:
@@ -116,7 +116,7 @@ class Study {
   bool goes_on() const { return !go_on_ || go_on_(); }
   /// Experiments call this between parts of their own computations.   @throws Stopped if the program has to stop
   void breathe() const {
-    if (!goes_on()) throw Stopped{};
+    if (!goes_on()) throw StudyInterrupted{};
   }
 
   /// Calls piece(0) to piece(count - 1), also on idle threads. Pieces are independent, and do not change this Study.
@@ -126,7 +126,7 @@ class Study {
   const std::vector<Curves>& curves() const { return curves_; }
   const std::vector<Drawn>& drawn() const { return drawn_; }
   const std::vector<TextTable>& tables() const { return tables_; }
-  const std::vector<KeptScenario>& scenarios() const { return scenarios_; }
+  const std::vector<StoredScenario>& scenarios() const { return scenarios_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -144,7 +144,7 @@ class Study {
   std::vector<Curves> curves_;
   std::vector<Drawn> drawn_;
   std::vector<TextTable> tables_;
-  std::vector<KeptScenario> scenarios_;
+  std::vector<StoredScenario> scenarios_;
   std::vector<std::string> notes_;
 };
 

@@ -35,7 +35,7 @@ std::vector<TubeMember> members_of(Study& study, SweepRequest request) {
         sweep.complaints(), [](const Complaint& complaint) { return complaint.text(); }, "; "));
   }
   const SweepReport report = sweep.run([&](std::int64_t) { return study.goes_on(); });
-  if (report.status == "interrupted") throw Stopped{};
+  if (report.status == "interrupted") throw StudyInterrupted{};
   const Table table = sweep.members();
   std::vector<TubeMember> members(table.rows());
   for (std::size_t k = 0; k < members.size(); ++k) {

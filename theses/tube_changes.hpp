@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "tube_watch.hpp"
+#include "tube_runs.hpp"
 
 namespace hamflow::reproduction::t_tube_table {
 

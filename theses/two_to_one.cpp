@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "hamflow/core/counter_random.hpp"
-#include "tube_watch.hpp"
+#include "tube_runs.hpp"
 
 namespace hamflow::reproduction {
 

@@ -8,8 +8,8 @@
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
-#include "meant.hpp"
 #include "scenario_template.hpp"
+#include "suggested_names.hpp"
 
 namespace hamflow::app {
 

@@ -43,7 +43,7 @@ RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWor
 int print(const RunReport& report, const std::string& folder, const RunOptions& options) {
   std::cout << (options.json ? report.json : report.text);
   print_warnings(report.warnings);
-  if (report.was_complete && report.file_trouble.empty()) return exit_done;
+  if (report.was_complete && report.file_error.empty()) return exit_done;
   if (!folder.empty() && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder);
     if (report.status == "interrupted")
@@ -53,13 +53,13 @@ int print(const RunReport& report, const std::string& folder, const RunOptions& 
   if (failed) {
     print_error(report.message, report.hint, report.details);
     if (!folder.empty()) std::cerr << "the results up to the failure are in " << folder << '\n';
-    if (!report.file_trouble.empty())
+    if (!report.file_error.empty())
       std::cerr << "to continue from the last checkpoint, give the same command with --resume\n";
-  } else if (!report.file_trouble.empty()) {
-    print_error(report.file_trouble);
+  } else if (!report.file_error.empty()) {
+    print_error(report.file_error);
   }
   if (report.drawing_stopped) return exit_interrupted;
-  return report.file_trouble.empty() ? exit_status(report.status) : exit_file;
+  return report.file_error.empty() ? exit_status(report.status) : exit_file;
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ class Shell {
     if (word == "step") return step(rest);
     if (word == "dt") {
       with("a number other than 0");
-      session_.set_step_length(rest);
+      session_.set_step_size(rest);
       outcome_ = Outcome::done;
     } else if (word == "tol") {
       with("a positive number, or off");

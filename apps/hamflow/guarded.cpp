@@ -7,7 +7,7 @@
 #include <new>
 
 #include "hamflow/detail/workflow/rejection_json.hpp"
-#include "hamflow/figures/while_drawing.hpp"
+#include "hamflow/figures/stop_drawing.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "progress.hpp"
 #include "whole_file.hpp"
@@ -40,7 +40,7 @@ void require_memory() {
 }  // namespace
 
 int guarded(bool json, const std::function<int()>& body, const std::string& failure, const KeptWork* kept) {
-  const figures::WhileDrawing watch([] { return !interrupted(); });
+  const figures::StopDrawingScope watch([] { return !interrupted(); });
   try {
     require_memory();
     return body();

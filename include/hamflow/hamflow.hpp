@@ -29,7 +29,7 @@
 #include "hamflow/figures/curves.hpp"
 #include "hamflow/figures/page.hpp"
 #include "hamflow/figures/panel_axes.hpp"
-#include "hamflow/figures/while_drawing.hpp"
+#include "hamflow/figures/stop_drawing.hpp"
 #include "hamflow/formula/formula.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/formula/tex.hpp"

@@ -52,7 +52,7 @@ py::dict run_in_python(const Scenario& scenario, const std::filesystem::path& fo
   found["status"] = report.status;
   found["message"] = report.message;
   found["hint"] = report.hint;
-  found["file_trouble"] = report.file_trouble;
+  found["file_trouble"] = report.file_error;
   found["warnings"] = report.warnings;
   found["notes"] = notes;
   found["interrupted"] = interrupts.raised();

@@ -85,14 +85,14 @@ struct RowTile {
   /// Returns the differences of coordinate k from the partners j, j + 1, ...
   HAMFLOW_INLINE Part difference(int t, int k, std::size_t j) const { return centre[t][k] - load<Part>(at[k] + j); }
   /// Pairs of one row, computed as far as the slow division: a part from j on, and one from j + 8 on.
-  struct Begun {
+  struct PartialPairs {
     Part base[2];
     typename L::Inverses inverses;
   };
   /// @tparam Some whether only some pairs count   @param counts the masks of these pairs
   template <bool Some>
-  HAMFLOW_INLINE Begun begin(int t, std::size_t j, const Mask* counts) const {
-    Begun r;
+  HAMFLOW_INLINE PartialPairs begin(int t, std::size_t j, const Mask* counts) const {
+    PartialPairs r;
     each<2>([&](auto half) __attribute__((always_inline)) {
       constexpr int h = decltype(half)::value;
       Part u;
@@ -108,7 +108,7 @@ struct RowTile {
   }
   /// Completes the pairs. Differences are computed again, which is faster than keeping them.
   template <bool Some>
-  HAMFLOW_INLINE void end(Begun begun, int t, int n, std::size_t j, Part (&feel)[2][Space], const Mask* counts) {
+  HAMFLOW_INLINE void end(PartialPairs begun, int t, int n, std::size_t j, Part (&feel)[2][Space], const Mask* counts) {
     begun.inverses.end(L::numerator(law), begun.base[0], begun.base[1]);
     each<2>([&](auto half) __attribute__((always_inline)) {
       constexpr int h = decltype(half)::value;
@@ -151,7 +151,7 @@ struct RowTile {
     }
   }
   /// Visits the sixteen partners from j on, of which only some count.
-  HAMFLOW_INLINE void visit_some(std::size_t j, const unsigned (&bits)[Tile], int first_part) {
+  HAMFLOW_INLINE void visit_masked(std::size_t j, const unsigned (&bits)[Tile], int first_part) {
     each<Width>([&](auto part) __attribute__((always_inline)) {
       constexpr int n = decltype(part)::value;
       visit<true>(j + static_cast<std::size_t>(n) * lanes, n, bits, first_part + n);
@@ -164,14 +164,14 @@ struct RowTile {
       for (std::size_t j = first; j < last; j += 16) visit<false>(j, 0, nullptr, 0);
     } else if (first < last) {
       const auto begin_at = [&](std::size_t j) __attribute__((always_inline)) { return begin<false>(0, j, nullptr); };
-      Begun begun[Width];
+      PartialPairs begun[Width];
       for (int n = 0; n < Width; ++n) begun[n] = begin_at(first + static_cast<std::size_t>(n) * lanes);
       for (std::size_t j = first; j < last; j += 16) {
         const std::size_t after = j + 16 < last ? j + 16 : j;
         each<Width>([&](auto part) __attribute__((always_inline)) {
           constexpr int n = decltype(part)::value;
           constexpr std::size_t lane = static_cast<std::size_t>(n) * lanes;
-          const Begun next = begin_at(after + lane);
+          const PartialPairs next = begin_at(after + lane);
           Part none[2][Space];
           end<false>(begun[n], 0, n, j + lane, none, nullptr);
           begun[n] = next;
@@ -218,9 +218,9 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
       for (int n = 0; n < natives; n += Width) {
         const std::size_t lane = static_cast<std::size_t>(n) * lanes;
         RowTile<L, Space, Energy, Tile, Width> t(rows, law, i, force);
-        t.visit_some(own + lane, bits, n);
+        t.visit_masked(own + lane, bits, n);
         t.visit_all(own + 16 + lane, whole + lane);
-        if (own < whole && rest != 0) t.visit_some(whole + lane, ends, n);
+        if (own < whole && rest != 0) t.visit_masked(whole + lane, ends, n);
         for (int r = 0; r < Tile; ++r) {
           for (int m = 0; m < Width; ++m) {
             for (int k = 0; k < Space; ++k) sums[r].force[k].v[n + m] = t.force[r][m][k].v[0];

@@ -17,7 +17,7 @@
 
 namespace hamflow {
 
-Shape families::shape_of_known(const AnySplitting& method) {
+Shape families::cached_shape_of(const AnySplitting& method) {
   static std::mutex mutex;
   static std::map<std::pair<const void*, bool>, Shape> known;
   const std::lock_guard lock(mutex);

@@ -71,7 +71,7 @@ class ElementProgram {
   /// @return true if all numbers are valid, else none is
   bool run(std::span<double> frame, Effort& effort) const {
     const Made* const made = made_.load(std::memory_order_acquire);
-    if (made == nullptr && runs_.fetch_add(1, std::memory_order_relaxed) < worth_it) {
+    if (made == nullptr && runs_.fetch_add(1, std::memory_order_relaxed) < least_runs_to_record) {
       compute_(frame, effort);
       return true;
     }
@@ -79,7 +79,7 @@ class ElementProgram {
   }
 
  private:
-  static constexpr int worth_it = 500;
+  static constexpr int least_runs_to_record = 500;
   struct Made {
     Effort effort;
     std::unique_ptr<const StepLoop> loop;
@@ -137,7 +137,7 @@ class ElementOnFrame {
     using Plain::taken;
     V lost(const V& x, const Point& at) const {
       if constexpr (natural) {
-        return this->lost_in_residual(at, this->half_impulse(at));
+        return this->residual_rounding(at, this->half_impulse(at));
       } else {
         Point sharp = at;
         this->remove_residual_rounding(x, sharp);

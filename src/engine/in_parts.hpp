@@ -56,7 +56,7 @@ class InParts : public Base {
     }
   }
   void forget_momenta() override {
-    if (!remembers_positions_alone<typename Base::Stepper>() || has_clock(Base::problem())) InParts::forget();
+    if (!memory_depends_on_positions_only<typename Base::Stepper>() || has_clock(Base::problem())) InParts::forget();
   }
   void forget_mirrored(std::size_t i) override {
     // If a position is a single number, the mirror image of a force has the same bits except for the sign.

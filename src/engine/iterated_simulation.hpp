@@ -123,7 +123,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   /// The number of steps that recording and compiling cost.
   static constexpr std::int64_t worth_recording = 200;
   /// Fewer steps do not use programs, since filling a frame costs about as much as a step.
-  static constexpr std::int64_t few_steps = 4;
+  static constexpr std::int64_t least_steps_for_programs = 4;
 
   /// See take_quickly().
   std::optional<std::int64_t> take_by_programs(std::int64_t steps) {
@@ -143,7 +143,8 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
   /// Whether programs can take these steps. They do not support a tolerance, diagnostics, a kept Jacobian, changing
   /// points or varying steps.
   bool is_worth_running(std::int64_t steps) {
-    if (!record_ || steps < few_steps || varies_steps() || automatic() || !can_be_recorded()) return false;
+    if (!record_ || steps < least_steps_for_programs || varies_steps() || automatic() || !can_be_recorded())
+      return false;
     const NewtonOptions options = newton();
     if (options.tolerance || options.diagnostics || options.iteration == Iteration::simplified) return false;
     values_.resize(frame_.size());

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "hamflow/arithmetic/mp.hpp"
-#include "way_out.hpp"
+#include "step_interruption.hpp"
 
 namespace hamflow {
 

@@ -62,15 +62,15 @@ class PartsInNumbers {
 };
 
 /// A simulation whose parts may be recorded.
-class MovesInNumbers {
+class HasPartsInNumbers {
  public:
-  virtual ~MovesInNumbers() = default;
+  virtual ~HasPartsInNumbers() = default;
   /// Partial steps on the numbers of the present state; the simulation is updated by land(). Null if parts are not
   /// recorded yet.
   virtual PartsInNumbers* parts_in_numbers() = 0;
   /// Moves the simulation to the state of the numbers. @return false, with nothing done, if complete_step would not
   /// find a finite energy
-  virtual bool land() = 0;
+  virtual bool write_back_state() = 0;
 };
 
 }  // namespace hamflow

@@ -81,7 +81,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   /// The number of steps that recording and compiling cost.
   static constexpr std::int64_t worth_recording = 200;
   /// Filling a frame costs about as much as a step.
-  static constexpr std::int64_t few_steps = 4;
+  static constexpr std::int64_t least_steps_for_programs = 4;
 
   /// See take_quickly().
   std::optional<std::int64_t> take_by_loop(std::int64_t steps) {
@@ -99,7 +99,7 @@ class SegmentSimulation final : public SimulationOf<P, M, A> {
   int points() const { return method_.setup().rule().points; }
   /// Whether programs can take these steps. They do not support a tolerance, diagnostics or varying steps.
   bool is_worth_running(std::int64_t steps) {
-    if (!maker_ || steps < few_steps || Base::varies_steps()) return false;
+    if (!maker_ || steps < least_steps_for_programs || Base::varies_steps()) return false;
     const NewtonOptions options = method_.setup().newton();
     if (options.tolerance || options.diagnostics || options.iteration != Iteration::newton) return false;
     return loop_ || (asked_ += steps) >= worth_recording;

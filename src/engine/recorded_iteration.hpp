@@ -216,8 +216,8 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
   const V dq = f.read(frame.increment(), frame.n);
   const V dp = f.read(frame.increment() + frame.n, frame.n);
   for (std::size_t i = 0; i < frame.n; ++i) {
-    f.z.arithmetic.position.add_keeping(f.z.q[i], dq[i]);
-    f.z.arithmetic.momentum.add_keeping(f.z.p[i], dp[i]);
+    f.z.arithmetic.position.add_with_exact_low(f.z.q[i], dq[i]);
+    f.z.arithmetic.momentum.add_with_exact_low(f.z.p[i], dp[i]);
   }
   Number& position = f.numbers[IterationFrame::position];
   position += Number(time.direction);

@@ -25,7 +25,9 @@ using StepRecorder = std::function<std::optional<RecordedStep>(
     RecordedAt at, AtWalls at_walls)>;
 
 template <class P, class M, Arithmetic A>
-class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public RecordedMember, public MovesInNumbers {
+class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
+                                 public RecordedMember,
+                                 public HasPartsInNumbers {
   using Base = InParts<SimulationOf<P, M, A>>;
   using typename StepsInParts<double>::Place;
   using Base::clock_;
@@ -165,7 +167,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     read_state();
     return &*numbers_;
   }
-  bool land() override {
+  bool write_back_state() override {
     const double error = std::abs(numbers_->energy() - probe_.initial_energy());
     if (!(error <= std::numeric_limits<double>::max())) return false;
     take_numbers(numbers_->parts());

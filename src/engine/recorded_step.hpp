@@ -128,7 +128,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
   PhasePoint<A, dynamic> z;
   z.store(cast<Number>(q), cast<Number>(p));
   ConservationProbe<P, Number> probe;
-  if constexpr (varies && requires { method.take_any_steps(); }) method.take_any_steps();
+  if constexpr (varies && requires { method.keep_unscaled_force(); }) method.keep_unscaled_force();
   try {
     probe.start(problem, z.positions(), z.momenta(), Number(time.start));
     auto density = [&] {
@@ -195,7 +195,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     bool is_seen = false;
     add_evaluations(recorded.effort, method.effort(), method_before.effort());
     if (recorded.words > 0) {
-      if (!remembers_positions_alone<M>()) return std::nullopt;
+      if (!memory_depends_on_positions_only<M>()) return std::nullopt;
       // With a time-dependent H, the force kept from before a rejected step would belong to another time.
       if (walls->rule == WallRule::reject && problem.has_clock()) return std::nullopt;
       // A step that is rejected or mirrored must not fail.

@@ -248,8 +248,8 @@ class SegmentRecorder {
     const Increment<Number, dynamic> taken = e.corrected(x, point(f), f.read(frame_.correction(), frame_.m));
     if (judges_) f.numbers[frame_.missed()] = abs(e.finer_work(taken).gain) - e.rounding_of_work(taken);
     for (std::size_t i = 0; i < frame_.n; ++i) {
-      f.z.arithmetic.position.add_keeping(f.z.q[i], taken.q[i]);
-      f.z.arithmetic.momentum.add_keeping(f.z.p[i], taken.p[i]);
+      f.z.arithmetic.position.add_with_exact_low(f.z.q[i], taken.q[i]);
+      f.z.arithmetic.momentum.add_with_exact_low(f.z.p[i], taken.p[i]);
     }
     Number& position = f.numbers[IterationFrame::position];
     position += Number(time.direction);

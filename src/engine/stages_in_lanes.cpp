@@ -187,7 +187,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
       Numbers high(n);
       Numbers low(n);
       for (std::size_t a = 0; a < n; ++a) {
-        detail::KeptSum<Number> sum{r.of(at.p0() + a), Number(0)};
+        detail::CompensatedSum<Number> sum{r.of(at.p0() + a), Number(0)};
         Number next(0);
         for (std::size_t i = 0; i < k; ++i) {
           sum.add(r.numbers[at.factor() + i] * r.of(at.at_end() + a, i));
@@ -282,7 +282,7 @@ double StagesInLanes::distance_of(std::span<const double> other) const {
 
 bool StagesInLanes::end(std::span<double> x, std::span<double> dq, std::span<double> dp, std::span<double> next) {
   if (!run(*finish_)) return false;
-  // Adds the sums for q and for p in the same loop, each as detail::KeptSum does.
+  // Adds the sums for q and for p in the same loop, each as detail::CompensatedSum does.
   for (std::size_t a = 0; a < at_.n; ++a) {
     const double* const impulse = row(at_.at_end() + a);
     const double* const d = row(at_.d() + a);

@@ -87,7 +87,7 @@ PhasePoint<A, N> placed(const State<R>& z, [[maybe_unused]] std::size_t size, [[
 }
 /// Reads a state and a method into z; the inverse of placed().
 template <class A, std::size_t N, class M, class R>
-void taken_from(const PhasePoint<A, N>& point, [[maybe_unused]] const M& method, State<R>& z) {
+void read_state_into(const PhasePoint<A, N>& point, [[maybe_unused]] const M& method, State<R>& z) {
   const auto put = [&](std::size_t first, const auto& x) {
     for (std::size_t i = 0; i < x.size(); ++i) z[first + i] = x[i];
   };
@@ -117,7 +117,7 @@ State<R> flow_of(const P& problem, const State<R>& z, const R& t) {
 }
 /// Projects a state to the nearest one that satisfies the constraints of a problem.
 template <class P, class R>
-State<R> settled_on([[maybe_unused]] const P& problem, const State<R>& z) {
+State<R> projected_to_constraints([[maybe_unused]] const P& problem, const State<R>& z) {
   if constexpr (Constrained<P>) {
     auto q = part_of<R, P::dimension>(z, 0);
     auto p = part_of<R, P::dimension>(z, z.size() / 2);
@@ -195,11 +195,11 @@ class StepMapOf final : public StepMap {
     }
   }
   State<long double> settled(const State<long double>& z) const override {
-    return detail::settled_on(long_problem_, z);
+    return detail::projected_to_constraints(long_problem_, z);
   }
   State<Quad> settled(const State<Quad>& z) const override {
     if constexpr (beyond == Beyond::quad) {
-      return detail::settled_on(beyond_.problem, z);
+      return detail::projected_to_constraints(beyond_.problem, z);
     } else if constexpr (beyond == Beyond::given) {
       return beyond_.settle_in_quad(z);
     } else {
@@ -243,7 +243,7 @@ class StepMapOf final : public StepMap {
         at[k].slope[0] = 1;
         auto point = detail::placed<A, n>(at, size_, method);
         (void)method.step(problem_, h, point);
-        detail::taken_from(point, method, at);
+        detail::read_state_into(point, method, at);
         for (std::size_t i = 0; i < z.size(); ++i) rows[i][k] = at[i].slope[0];
       }
       return rows;
@@ -310,8 +310,8 @@ class StepMapOf final : public StepMap {
   std::vector<State<double>> residual_gradients(const State<double>& z) const {
     std::vector<State<double>> all;
     for (std::size_t k = 0; k < z.size(); ++k) {
-      const auto q = seeded(detail::part_of<double, n>(z, 0), k);
-      const auto p = seeded(detail::part_of<double, n>(z, size_), k, size_);
+      const auto q = dual_along_coordinate(detail::part_of<double, n>(z, 0), k);
+      const auto p = dual_along_coordinate(detail::part_of<double, n>(z, size_), k, size_);
       const auto position = constraints(problem_, q);
       const auto rates = products(constraint_gradients(problem_, q), inverse_mass_times(problem_, p));
       all.resize(2 * position.size(), State<double>(z.size()));
@@ -342,13 +342,14 @@ class StepMapOf final : public StepMap {
     for (std::int64_t i = 0; i < steps; ++i) {
       if (method.step(problem, h, point) != Outcome::done) return false;
     }
-    detail::taken_from(point, method, z);
+    detail::read_state_into(point, method, z);
     return true;
   }
 
   /// Returns x as dual numbers. x has the coordinates from `first` on, and coordinate k of all is the variable.
   template <std::size_t N>
-  static Vector<Dual<double, 1>, N> seeded(const Vector<double, N>& x, std::size_t k, std::size_t first = 0) {
+  static Vector<Dual<double, 1>, N> dual_along_coordinate(const Vector<double, N>& x, std::size_t k,
+                                                          std::size_t first = 0) {
     auto y = zeros<Dual<double, 1>, N>(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
       y[i] = x[i];
@@ -437,7 +438,7 @@ class StepMapOf final : public StepMap {
     const State<double> fixed(2 * size_);
     std::vector<State<double>> increments(unknowns);  // the columns of E_U
     for (std::size_t k = 0; k < unknowns; ++k) {
-      const auto at = seeded(u, k);
+      const auto at = dual_along_coordinate(u, k);
       residual(along(q0, fixed, 0), along(p0, fixed, size_), at, &by_unknowns[k], unknowns);
       const Increment<D, n> e = method.increment(at);
       increments[k].resize(2 * size_);
@@ -447,7 +448,8 @@ class StepMapOf final : public StepMap {
       }
     }
     for (std::size_t k = 0; k < columns; ++k) {
-      residual(along(q0, tangents[k], 0), along(p0, tangents[k], size_), seeded(u, unknowns), &right[k], columns);
+      residual(along(q0, tangents[k], 0), along(p0, tangents[k], size_), dual_along_coordinate(u, unknowns), &right[k],
+               columns);
     }
     detail::solve_large(by_unknowns.data(), right.data(), unknowns, columns);
     for (std::size_t k = 0; k < columns; ++k) {

@@ -13,15 +13,15 @@ StepMonitor<RealOf<P>, dynamic> step_monitor(const P& problem, const StepControl
   return control.monitor == default_monitor ? arclength_monitor(problem) : distance_monitor(problem);
 }
 
-inline constexpr Capability natural_face = Capability::separable | Capability::quadratic_kinetic;
+inline constexpr Capability natural_capabilities = Capability::separable | Capability::quadratic_kinetic;
 
 /// Makes the steps of a simulation vary if the request asks for it.
 template <class R, class S>
 void vary_steps_as_requested(S& simulation, const ErasedRun<R>& run, const Request& request) {
   const StepControl control = step_control_of(request.method);
   if (!control.reversible) return;
-  if (includes(run.functions.capability, natural_face)) {
-    simulation.vary_steps(step_monitor(run.functions.template as<natural_face>(), control));
+  if (includes(run.functions.capability, natural_capabilities)) {
+    simulation.vary_steps(step_monitor(run.functions.template as<natural_capabilities>(), control));
   } else {
     simulation.vary_steps(step_monitor(run.functions.template as<Capability::smooth>(), control));
   }

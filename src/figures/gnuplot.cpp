@@ -194,10 +194,11 @@ int wait_for(Child& child, double longest) {
 }
 }  // namespace
 
-WhileDrawing::WhileDrawing(std::function<bool()> go_on) : go_on_(std::move(go_on)), before_(asked_while_drawing) {
+StopDrawingScope::StopDrawingScope(std::function<bool()> go_on)
+    : go_on_(std::move(go_on)), before_(asked_while_drawing) {
   asked_while_drawing = &go_on_;
 }
-WhileDrawing::~WhileDrawing() { asked_while_drawing = before_; }
+StopDrawingScope::~StopDrawingScope() { asked_while_drawing = before_; }
 
 std::vector<std::string> run_gnuplot(const std::vector<std::string>& scripts, double longest) {
   const ScratchFolder folder;

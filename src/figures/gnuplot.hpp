@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/figures/while_drawing.hpp"
+#include "hamflow/figures/stop_drawing.hpp"
 #include "terminal.hpp"
 
 namespace hamflow::figures {

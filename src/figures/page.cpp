@@ -6,10 +6,10 @@
 #include <iterator>
 #include <span>
 
+#include "draw_style.hpp"
 #include "gnuplot.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
-#include "ink.hpp"
 #include "legend.hpp"
 #include "printed.hpp"
 #include "script.hpp"
@@ -53,7 +53,7 @@ class PageWriter {
     for (const Panel& panel : page_.panels) {
       if (are_upright(panel.x)) below_ = std::max(below_, below_box - tick_line + letters(panel.x.widest_label()));
     }
-    leave_out_unseen();
+    remove_invisible_points();
     wrap_notes();
     if (page_.height > 0 || width_ < smallest_box) fill_height();
     for (Panel& panel : page_.panels) {
@@ -92,7 +92,7 @@ class PageWriter {
     return page_.notes.empty() ? 0 : 1 + note_line * static_cast<double>(page_.notes.size());
   }
   /// Removes points that cannot be seen in print. If a path fills an area, a note explains its two shades.
-  void leave_out_unseen() {
+  void remove_invisible_points() {
     constexpr double usual_pixel = 25.4 / 300;  // mm
     bool any_area = false;
     for (Panel& panel : page_.panels) {

@@ -30,7 +30,7 @@ bool is_point(const Curve& curve) {
 }
 /// Returns whether a line over the samples would fill the area, because it turns several times in each column of the
 /// page.
-bool is_field(const Curve& curve) {
+bool fills_area(const Curve& curve) {
   std::size_t turns = 0;
   for (std::size_t k = 2; k < curve.y.size(); ++k) {
     if ((curve.y[k] - curve.y[k - 1]) * (curve.y[k - 1] - curve.y[k - 2]) < 0) ++turns;
@@ -73,25 +73,25 @@ bool is_whole_run(const FigureSamples& first_steps, const FigureData& data) {
   return std::abs(first_steps.t.back()) >= (1 - rounding) * std::abs(end);
 }
 
-Openings openings_of(const Figure& figure) {
+FirstStepLines first_step_lines_of(const Figure& figure) {
   return {.whole_run = std::all_of(figure.runs.begin(), figure.runs.end(),
                                    [](const FigureData& run) { return is_whole_run(run.first_steps, run); })};
 }
 
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
-                              std::vector<Series> how, Openings& drawn) {
-  bool openings_alone = !tracks.empty();
+                              std::vector<Series> how, FirstStepLines& drawn) {
+  bool first_steps_only = !tracks.empty();
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     how[k] = track_of(tracks[k], std::move(how[k]));
-    openings_alone = openings_alone && how[k].ink != Ink::path;
+    first_steps_only = first_steps_only && how[k].ink != Ink::path;
   }
   bool moves = false;
-  for (std::size_t k = 0; openings_alone && k < tracks.size(); ++k) {
+  for (std::size_t k = 0; first_steps_only && k < tracks.size(); ++k) {
     const bool rests = is_point(openings[k]);
-    openings_alone = rests || follows_path(openings[k]);
+    first_steps_only = rests || follows_path(openings[k]);
     moves = moves || !rests;
   }
-  if (!openings_alone || !moves) return how;
+  if (!first_steps_only || !moves) return how;
   drawn.any = true;
   std::vector<Series> all;
   for (std::size_t k = 0; k < tracks.size() && !drawn.whole_run; ++k) {
@@ -113,7 +113,7 @@ std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vecto
   return all;
 }
 
-void note_opening(Page& page, const FigureData& data) {
+void note_first_steps(Page& page, const FigureData& data) {
   if (is_whole_run(data.first_steps, data)) return;
   const double end = std::isfinite(data.end) ? data.end : data.t.back();
   page.notes.push_back("line: the first steps, to {/:Italic t} = " + short_value(data.first_steps.t.back()) + " of " +
@@ -181,7 +181,7 @@ Panel panel_over(const Extent& times, const std::string& label) {
 void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector<double>& y, Series how) {
   how.curve = finite_points(t, y, Gaps::kept);
   how.ink = Ink::line;
-  if (how.curve.x.size() > 4 * page_columns && is_field(how.curve)) {
+  if (how.curve.x.size() > 4 * page_columns && fills_area(how.curve)) {
     const Band band = envelope(how.curve, page_columns);
     how.ink = Ink::band;
     how.curve = {band.x, band.low};

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "draw_style.hpp"
 #include "figure.hpp"
 #include "hamflow/figures/axis.hpp"
 #include "hamflow/figures/curves.hpp"
 #include "hamflow/figures/page.hpp"
 #include "hamflow/figures/panel_axes.hpp"
-#include "ink.hpp"
 
 namespace hamflow::figures {
 
@@ -27,23 +27,23 @@ Series track_of(const Curve& track, Series how);
 /// Returns whether the stored first steps of a run are all of its steps.
 bool is_whole_run(const FigureSamples& first_steps, const FigureData& data);
 /// Whether lines show the first steps of runs, in place of lines over samples that are too far apart.
-struct Openings {
+struct FirstStepLines {
   bool whole_run = false;  // the first steps are the whole run
   bool any = false;        // such lines were drawn
 };
 /// Returns the state for a figure before any path is drawn.
-Openings openings_of(const Figure& figure);
+FirstStepLines first_step_lines_of(const Figure& figure);
 /// Draws the paths of one panel. If lines follow none of them, but follow the first_steps of each, these lines are
 /// drawn over dots at the samples, and `drawn.any` becomes true. All paths are treated alike, so that a note about the
 /// first steps holds for all of them.
 /// @param how one for each track   @param openings first steps for each track, empty if unknown
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
-                              std::vector<Series> how, Openings& drawn);
+                              std::vector<Series> how, FirstStepLines& drawn);
 /// Extends x and y to the drawn series, which may reach further than the samples.
 void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y);
 /// Adds a note such as "line: the first steps, to t = 12 of 300" to a figure with first_steps, unless these are the
 /// whole run.
-void note_opening(Page& page, const FigureData& data);
+void note_first_steps(Page& page, const FigureData& data);
 /// Returns a note such as "lines join 3 samples", for lines between samples that the motion does not follow.
 std::string joined_note(std::size_t samples);
 /// Returns whether a curve over time turns from sample to sample, or has only a few samples. Only turns of at least a

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "draw_style.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/figures/page.hpp"
-#include "ink.hpp"
 #include "panels.hpp"
 #include "terminal.hpp"
 #include "text.hpp"

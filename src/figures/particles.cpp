@@ -24,7 +24,7 @@ std::size_t sample_nearest_to(const FigureData& data, double t) {
 }
 }  // namespace
 
-OtherSample other_sample_at(const FigureData& data, double t) {
+MissingSample missing_sample_at(const FigureData& data, double t) {
   const double nearest = data.t[sample_nearest_to(data, t)];
   // n dt and a typed time are rounded, so they are compared as scenarios do (run.record).
   if (std::abs(nearest - t) <= 4 * 0x1p-52 * std::abs(t)) return {};

@@ -13,11 +13,11 @@
 namespace hamflow::figures {
 
 /// Describes the samples if none is at a given time, to rounding; empty if there is one.
-struct OtherSample {
+struct MissingSample {
   std::string told{};  // for example "the 21 samples from 0 to 1; the nearest is at 0.5"
   bool is_beyond = false;
 };
-OtherSample other_sample_at(const FigureData& data, double t);
+MissingSample missing_sample_at(const FigureData& data, double t);
 /// Returns the sample nearest to each time.
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times);
 

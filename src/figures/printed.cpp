@@ -199,8 +199,8 @@ Curve beginning(const Curve& curve, const std::vector<Pixel>& pixels, const std:
 }
 
 /// Removes the segments that only run over pixels that already have ink.
-Curve drawn_once(const Curve& curve, const std::vector<Pixel>& pixels, const std::vector<Places>& branches,
-                 const PrintedBox& box) {
+Curve without_repeated_ink(const Curve& curve, const std::vector<Pixel>& pixels, const std::vector<Places>& branches,
+                           const PrintedBox& box) {
   Coverage coverage(box);
   Curve result;
   for (const Places& branch : branches) {
@@ -268,7 +268,7 @@ std::vector<Series> printed(const Panel& panel, Series series, const PrintedBox&
     return {series};
   }
   Series once = series;
-  once.curve = drawn_once(series.curve, pixels, branches, box);
+  once.curve = without_repeated_ink(series.curve, pixels, branches, box);
   if (!coverage.fills_an_area()) return {once};
   constexpr double tint = 0.25;
   constexpr std::size_t one_of = 8;  // one pixel in this many has ink of the line

@@ -70,7 +70,7 @@ WholeFile::WholeFile(fs::path file, fs::path part) : file_(std::move(file)), par
 WholeFile::~WholeFile() {
   close_descriptor();
   std::error_code none;
-  if (waits_ && part_ != file_) fs::remove(part_, none);
+  if (is_pending_ && part_ != file_) fs::remove(part_, none);
 }
 
 void WholeFile::fail(int error) const { throw cannot("write", file_, error); }
@@ -92,13 +92,13 @@ void WholeFile::write(std::span<const std::byte> bytes) {
 
 void WholeFile::put_in_place() {
   close_descriptor();
-  waits_ = part_ != file_;
-  if (!waits_) return;
+  is_pending_ = part_ != file_;
+  if (!is_pending_) return;
   force_to_disk(part_);
   std::error_code error;
   fs::rename(part_, file_, error);
   if (error) throw FileError("cannot replace " + file_.string() + ": " + error.message());
-  waits_ = false;
+  is_pending_ = false;
   force_to_disk(folder_of_file(file_));
 }
 

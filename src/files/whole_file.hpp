@@ -46,7 +46,7 @@ class WholeFile {
   std::filesystem::path file_;
   std::filesystem::path part_;
   int descriptor_ = -1;
-  bool waits_ = true;
+  bool is_pending_ = true;
 };
 
 /// Writes all bytes and puts the file in place. @throws FileError with the reason, for example a full disk; the

@@ -257,7 +257,7 @@ class NameResolver {
     return known == symbols_.known.end() ? node : checked(part, node, static_cast<long double>(known->second));
   }
   /// Finds a declared name that begins with `name`, as p_x does for p.
-  std::string begun_by(const std::string& name) const {
+  std::string name_with_prefix(const std::string& name) const {
     const auto first = std::find_if(symbols_.names.begin(), symbols_.names.end(),
                                     [&](const std::string& other) { return other.starts_with(name + "_"); });
     return first == symbols_.names.end() ? std::string() : *first;
@@ -288,7 +288,7 @@ class NameResolver {
     listed.push_back("numbers, pi, functions such as sqrt(2)");
     candidates.emplace_back("pi");
     for (const NamedFunction& f : named_functions()) candidates.emplace_back(f.name);
-    std::string near = begun_by(name);
+    std::string near = name_with_prefix(name);
     if (near.empty()) near = nearest(name, candidates);
     // Every short word is near to every other one, so a proposal has to share a letter with it.
     if (lower(near).find_first_of(lower(name)) == std::string::npos) near = written_here(name);

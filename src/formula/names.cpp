@@ -41,8 +41,8 @@ ProblemNames::Parameter parameter_of(const std::string& name, const std::string&
 }
 
 /// Returns the names that a text such as "x" or "x[n]" declares.
-std::vector<std::string> written_out(const std::string& key, const std::string& text, const FormulaSymbols& parameters,
-                                     std::set<std::string>& whole) {
+std::vector<std::string> expanded_names(const std::string& key, const std::string& text,
+                                        const FormulaSymbols& parameters, std::set<std::string>& whole) {
   const std::size_t opened = text.find('[');
   const std::string word(trimmed(std::string_view(text).substr(0, opened)));
   check_word(key, word);
@@ -110,12 +110,12 @@ ProblemNames names_of(const FormulaTexts& texts) {
   }
   for (std::size_t i = 0; i < texts.coordinates.size(); ++i) {
     const std::string key = place(FormulaKeys::coordinates, i);
-    const auto some = written_out(key, texts.coordinates[i], parameters, names.whole);
+    const auto some = expanded_names(key, texts.coordinates[i], parameters, names.whole);
     take(key, word_of(some[0]));
     const std::string momentum_key = texts.momenta.empty() ? key : place(FormulaKeys::momenta, i);
     const auto their = texts.momenta.empty()
-                           ? written_out(key, momentum_of(texts.coordinates[i]), parameters, names.whole)
-                           : written_out(momentum_key, texts.momenta[i], parameters, names.whole);
+                           ? expanded_names(key, momentum_of(texts.coordinates[i]), parameters, names.whole)
+                           : expanded_names(momentum_key, texts.momenta[i], parameters, names.whole);
     take(momentum_key, word_of(their[0]));
     const auto indexed = [](const std::string& name) { return name.back() == ']'; };
     if (some.size() != their.size() || indexed(some[0]) != indexed(their[0])) {

@@ -176,8 +176,8 @@ std::pair<std::string, std::string> refused_parameters(const Kind& kind, const T
 }
 
 /// Two particles (counted from 0) of a periodic box whose nearest images coincide.
-std::optional<std::pair<std::size_t, std::size_t>> at_images(const std::vector<double>& q,
-                                                             const std::vector<double>& edges) {
+std::optional<std::pair<std::size_t, std::size_t>> coinciding_images(const std::vector<double>& q,
+                                                                     const std::vector<double>& edges) {
   const std::size_t space = edges.size();
   const auto in_box = [&](std::size_t i) {
     std::vector<double> place(space);
@@ -233,7 +233,7 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
            " at one point; allowed different positions";
   }
   if (kind.shape.container != ContainerKind::periodic) return {};
-  if (const auto same = at_images(q, given.list(Keys::size))) {
+  if (const auto same = coinciding_images(q, given.list(Keys::size))) {
     return "particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
            " at images of the same point in the periodic box; allowed different positions in a box of size = [" +
            joined(given.list(Keys::size), shortest) + "]";
@@ -262,7 +262,7 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
     for (std::size_t i = 0; !spec.v.empty() && i < s.p.size(); ++i) s.p[i] *= gas.model().masses[i / gas.space()];
     return s;
   };
-  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), request));
+  return spec.energy.empty() ? with(R(0)) : with(component_for_energy(energy_line(gas, with), request));
 }
 
 /// The request without the texts of its start, which are not kept once they are read: the texts of a million particles
@@ -275,8 +275,8 @@ Request without_start(const Request& request) {
 }
 
 /// Uses bulk forces if these know the pair law. Steps are then not recorded, since recorded sums have another order.
-ErasedFunctions<double> in_bulk(ErasedFunctions<double> functions, const Gas<double>& gas,
-                                const Parameters<double>& given, Request& request) {
+ErasedFunctions<double> with_bulk_forces_if_possible(ErasedFunctions<double> functions, const Gas<double>& gas,
+                                                     const Parameters<double>& given, Request& request) {
   const double skin = given.has(Keys::skin) ? given[Keys::skin] : usual_skin;
   if (gas.particles() <= most_recorded_particles || !bulk_pair_system(gas, skin)) return functions;
   request.record = false;
@@ -298,15 +298,16 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
     // Walls and steps of varying length need virtual calls.
-    const bool behind_calls = request.walls || step_control_of(request.method).reversible;
-    if (request.arithmetic == "lattice" && !behind_calls) {
+    const bool needs_virtual_calls = request.walls || step_control_of(request.method).reversible;
+    if (request.arithmetic == "lattice" && !needs_virtual_calls) {
       simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
     }
   }
   if (!simulation) {
     ErasedFunctions<R> functions = gas_functions<R>(shape, given, size);
     Request asked = without_start(request);
-    if constexpr (std::is_same_v<R, double>) functions = in_bulk(std::move(functions), gas, given, asked);
+    if constexpr (std::is_same_v<R, double>)
+      functions = with_bulk_forces_if_possible(std::move(functions), gas, given, asked);
     simulation = simulate_erased<R>({std::move(functions), std::move(s.q), std::move(s.p), h}, asked);
   }
   if (shape.container != ContainerKind::circle) return simulation;
@@ -391,8 +392,9 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   e.simulate_member = [shape](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {
     Request asked = request;
-    ErasedFunctions<double> functions = in_bulk(gas_functions<double>(shape, parameters, q.size()),
-                                                make_gas<double>(shape, parameters, q.size()), parameters, asked);
+    ErasedFunctions<double> functions =
+        with_bulk_forces_if_possible(gas_functions<double>(shape, parameters, q.size()),
+                                     make_gas<double>(shape, parameters, q.size()), parameters, asked);
     return simulate_erased<double>({std::move(functions), vector_of(q), vector_of(p), h}, asked);
   };
   e.step_map = [shape](const Request& request, std::size_t size) -> std::unique_ptr<StepMap> {
@@ -409,7 +411,8 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   const auto functions = [shape, gas](const Texts& parameters, std::size_t size) {
     const Parameters<double> given(parameters);
     Request any;
-    return in_bulk(gas_functions<double>(shape, given, size), gas(parameters, size), given, any).plain;
+    return with_bulk_forces_if_possible(gas_functions<double>(shape, given, size), gas(parameters, size), given, any)
+        .plain;
   };
   e.energy = [functions](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     return functions(parameters, q.size())->energy(vector_of(q), vector_of(p));

@@ -72,7 +72,7 @@ class Copy {
                Hdf5Handle(H5Oopen(to_, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path), path);
   }
 
-  LeftOut left_out() { return std::move(left_out_); }
+  OmittedFromCopy left_out() { return std::move(left_out_); }
 
  private:
   void leave_out(const std::string& path, const std::string& why) {
@@ -183,7 +183,7 @@ class Copy {
   hid_t to_;
   hsize_t rows_;
   std::set<std::pair<unsigned long, haddr_t>> groups_;
-  LeftOut left_out_;
+  OmittedFromCopy left_out_;
 };
 
 void write_states(hid_t file, const Table& states) {
@@ -193,7 +193,8 @@ void write_states(hid_t file, const Table& states) {
   }
 }
 
-LeftOut copy(const std::filesystem::path& source, const std::filesystem::path& target, const ConvertedStates& states) {
+OmittedFromCopy copy(const std::filesystem::path& source, const std::filesystem::path& target,
+                     const ConvertedStates& states) {
   const Hdf5Handle from = open_to_read(source);
   if (has_object(from, "particles/all")) {
     throw FileError(source.string() + " contains particles, which have no other coordinates");
@@ -217,8 +218,8 @@ LeftOut copy(const std::filesystem::path& source, const std::filesystem::path& t
 
 }  // namespace
 
-LeftOut copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                      const ConvertedStates& states) {
+OmittedFromCopy copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                              const ConvertedStates& states) {
   silence_hdf5();
   try {
     return copy(source, target, states);

@@ -20,14 +20,14 @@ struct ConvertedStates {
 };
 
 /// Tables and objects that the copy does not contain.
-struct LeftOut {
+struct OmittedFromCopy {
   std::vector<std::string> tables;  // tables of events and sections, because their states are in the old coordinates
   std::vector<std::string> others;  // "/mine/link (why)": objects of a user that cannot be copied
 };
 
 /// @param source may also be a run that is still running or was cut short   @param target replaced if it exists
 /// @throws FileError
-LeftOut copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                      const ConvertedStates& states);
+OmittedFromCopy copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                              const ConvertedStates& states);
 
 }  // namespace hamflow

@@ -33,7 +33,7 @@ class IteratedBlock final : public EnsembleBlock {
       member.simulation =
           problem_->simulate_member(request_, parameters_of(shape, start.parameters), start.q, start.p, start.h);
       member.iterated = dynamic_cast<IteratedMember*>(member.simulation.get());
-      if (member.iterated == nullptr || !can_go(*member.simulation, *member.iterated)) return false;
+      if (member.iterated == nullptr || !can_run_in_lanes(*member.simulation, *member.iterated)) return false;
       const std::size_t i = members_.size();
       if (i > 0)
         member.parameters = members_[i - 1].parameters + (start.parameters == members[i - 1].parameters ? 0 : 1);
@@ -133,7 +133,7 @@ class IteratedBlock final : public EnsembleBlock {
 
   /// Whether a member can run in lanes. The programs do not support a tolerance, `simplified` and diagnostics. Whether
   /// a step can be recorded is known only after the first one.
-  bool can_go(const Simulation& simulation, const IteratedMember& member) {
+  bool can_run_in_lanes(const Simulation& simulation, const IteratedMember& member) {
     const NewtonOptions options = member.newton();
     if (!member.can_be_recorded() || options.tolerance || options.diagnostics ||
         options.iteration == Iteration::simplified) {
@@ -167,7 +167,7 @@ class IteratedBlock final : public EnsembleBlock {
       }
     }
     taken_ += steps;
-    for (Member* member : alone) go_alone(*member, steps);
+    for (Member* member : alone) run_unstarted_alone(*member, steps);
   }
 
   void go_together(const IteratedFamily& family, std::span<Member* const> members, std::int64_t steps) {
@@ -178,16 +178,16 @@ class IteratedBlock final : public EnsembleBlock {
     const auto alone = [&](std::size_t lane, std::int64_t left) {
       Member& member = *members[lane];
       bring(member, member.frame, taken_ + steps - left, member.effort);
-      go_alone(member, 1);
+      run_unstarted_alone(member, 1);
       if (!member.lost && member.has_guess && member.points == points) return true;
       member.in_lane = false;
-      go_alone(member, left - 1);
+      run_unstarted_alone(member, left - 1);
       return false;
     };
     in_lanes_ += runner_.run(family, first.newton(), first.automatic(), pack_, steps, alone);
   }
 
-  void go_alone(Member& member, std::int64_t steps) {
+  void run_unstarted_alone(Member& member, std::int64_t steps) {
     if (steps == 0 || member.lost) return;
     if (keeps_before_) member.before = member.simulation->clone();
     if (member.simulation->advance(steps) != Outcome::done) {
@@ -207,7 +207,7 @@ class IteratedBlock final : public EnsembleBlock {
   void join(Member& member, std::int64_t steps) {
     if (!member.has_guess) return;
     IteratedFamily& family = families_.try_emplace(member.points, set_).first->second;
-    member.in_lane = family.is_worth_it(steps) && family.take_in(member.parameters, *member.iterated);
+    member.in_lane = family.is_worth_recording(steps) && family.add_parameter_set(member.parameters, *member.iterated);
   }
 
   /// Advances the simulation of a member to the state of a frame.

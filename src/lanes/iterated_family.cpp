@@ -2,7 +2,7 @@
 
 namespace hamflow {
 
-bool IteratedFamily::take_in(std::size_t set, const IteratedMember& member) {
+bool IteratedFamily::add_parameter_set(std::size_t set, const IteratedMember& member) {
   if (const auto found = recorded_.find(set); found != recorded_.end()) return true;
   if (refused_.contains(set)) return false;
   if (auto recorded = member.recorded_iteration()) {

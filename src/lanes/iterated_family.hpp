@@ -17,7 +17,7 @@ class IteratedFamily {
   explicit IteratedFamily(LaneSet lanes) : correct_(lanes, 1), finish_(lanes, 1) {}
 
   /// Whether enough steps are requested to be worth recording and compiling.
-  bool is_worth_it(std::int64_t more_steps) { return (asked_ += more_steps) >= worth_recording; }
+  bool is_worth_recording(std::int64_t more_steps) { return (asked_ += more_steps) >= worth_recording; }
   /// Removes the members and keeps the loops.
   void clear() {
     recorded_.clear();
@@ -26,7 +26,7 @@ class IteratedFamily {
   /// Adds members with a set of parameters.
   /// @param set the number of the set   @param member the first member with it   @return false if its step cannot be
   /// recorded, or differs in more than constants
-  bool take_in(std::size_t set, const IteratedMember& member);
+  bool add_parameter_set(std::size_t set, const IteratedMember& member);
 
   const RecordedIteration& recorded() const { return *recorded_.begin()->second; }
   const FamilyLoop& correct() const { return correct_; }

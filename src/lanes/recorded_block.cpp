@@ -63,7 +63,7 @@ class RecordedBlock final : public EnsembleBlock {
       some = (summed_.empty() ? loop_ : summing_loop_).run(carried_, some, {failed_.get(), lanes()});
       taken_ += some;
       steps -= some;
-      if (step().stops) take_alone();
+      if (step().stops) step_alone_in_lane();
     }
   }
 
@@ -226,7 +226,7 @@ class RecordedBlock final : public EnsembleBlock {
   }
 
   /// The next step of a lane may hit a wall and was not taken. The member takes it alone and writes its numbers back.
-  void take_alone() {
+  void step_alone_in_lane() {
     double* const stop = carried_.data() + step().stop() * lanes();
     for (std::size_t lane = 0; lane < lanes(); ++lane) {
       const bool stands_for_last = lane >= members_.size();

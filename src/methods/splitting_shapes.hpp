@@ -12,12 +12,12 @@ namespace hamflow::families {
 
 /// The shape of a method. The tables of the catalogue exist as long as the program, so each is read once and not again
 /// for each member of a sweep.
-Shape shape_of_known(const AnySplitting& method);
+Shape cached_shape_of(const AnySplitting& method);
 
 /// Calls f with the recipe of the method's shape; the common shapes have kernels of their own.
 template <class F>
 auto visit_shape(const AnySplitting& method, F&& f) {
-  switch (shape_of_known(method)) {
+  switch (cached_shape_of(method)) {
     case Shape::kick_drift_kick:
       return f(TableRecipe<Shape::kick_drift_kick>{method});
     case Shape::drift_kick_drift:

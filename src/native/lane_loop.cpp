@@ -2,7 +2,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "is_asked.hpp"
+#include "is_enabled.hpp"
 #include "lanes.hpp"
 #include "passes.hpp"
 

@@ -30,16 +30,16 @@ class Allocator {
         memory_(uses_.count()),
         output_(uses_.count(), never),
         is_dead_(uses_.count()),
-        register_home_(values_, never) {
+        fixed_register_(values_, never) {
     for (std::uint32_t k = values_; k-- > 0;) {
       if (const std::uint32_t n = uses_.number(program.outputs[k]); n != never) output_[n] = k;
     }
-    choose_homes();
+    choose_fixed_registers();
   }
 
   PlacedProgram run() && {
     for (std::uint32_t k = 0; k < values_; ++k) {
-      const std::uint32_t r = register_home_[k];
+      const std::uint32_t r = fixed_register_[k];
       if (r == never) {
         memory_[k] = home(k);
       } else {
@@ -68,7 +68,7 @@ class Allocator {
 
  private:
   /// Chooses registers for carried values, those that are used earliest first. Two registers stay free for results.
-  void choose_homes() {
+  void choose_fixed_registers() {
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < values_; ++k) order.push_back(k);
     const auto is_kept = [&](std::uint32_t k) { return program_.outputs[k] == Operand{Operand::Kind::carried, k}; };
@@ -79,7 +79,7 @@ class Allocator {
     });
     const auto most = static_cast<std::uint32_t>(in_register_.size()) - 2;
     const auto count = static_cast<std::uint32_t>(order.size());
-    for (std::uint32_t r = 0; r < std::min(most, count); ++r) register_home_[order[r]] = r;
+    for (std::uint32_t r = 0; r < std::min(most, count); ++r) fixed_register_[order[r]] = r;
   }
 
   void bind(std::uint32_t number, std::uint32_t r) {
@@ -122,10 +122,10 @@ class Allocator {
   }
 
   /// Returns the register with the latest next use, among those that are not in the set `pinned`.
-  std::uint32_t victim(std::uint64_t pinned) const {
+  std::uint32_t register_to_free(std::uint64_t reserved_registers) const {
     std::uint32_t best = never;
     for (std::uint32_t r = 0; r < in_register_.size(); ++r) {
-      if ((pinned >> r & 1) != 0 || in_register_[r] == never) continue;
+      if ((reserved_registers >> r & 1) != 0 || in_register_[r] == never) continue;
       if (best == never || distance(r) > distance(best)) best = r;
     }
     return best;
@@ -134,18 +134,20 @@ class Allocator {
   std::pair<std::uint32_t, bool> distance(std::uint32_t r) const {
     return {uses_.next(in_register_[r]), memory_[in_register_[r]] != nowhere};
   }
-  std::uint32_t free_register(std::uint32_t wanted, std::uint64_t pinned) const {
-    const auto is_free = [&](std::uint32_t r) { return in_register_[r] == never && (pinned >> r & 1) == 0; };
+  std::uint32_t free_register(std::uint32_t wanted, std::uint64_t reserved_registers) const {
+    const auto is_free = [&](std::uint32_t r) {
+      return in_register_[r] == never && (reserved_registers >> r & 1) == 0;
+    };
     if (wanted != never && is_free(wanted)) return wanted;
     for (auto r = static_cast<std::uint32_t>(in_register_.size()); r-- > 0;) {  // homes have the lowest numbers
       if (is_free(r)) return r;
     }
     return never;
   }
-  std::uint32_t take_register(std::uint32_t wanted, std::uint64_t pinned = 0) {
-    std::uint32_t r = free_register(wanted, pinned);
+  std::uint32_t take_register(std::uint32_t wanted, std::uint64_t reserved_registers = 0) {
+    std::uint32_t r = free_register(wanted, reserved_registers);
     if (r == never) {
-      r = victim(pinned);
+      r = register_to_free(reserved_registers);
       store(in_register_[r]);
       unbind(r);
     }
@@ -153,20 +155,20 @@ class Allocator {
   }
   std::uint32_t wanted_for(std::uint32_t number) const {
     const std::uint32_t k = output_[number];
-    return k == never ? never : register_home_[k];
+    return k == never ? never : fixed_register_[k];
   }
 
   /// Loads an operand from memory if it is used again, and if no number with an earlier use loses its register.
-  void load_if_wanted(const Operand& operand, std::uint64_t pinned) {
+  void load_if_wanted(const Operand& operand, std::uint64_t reserved_registers) {
     const std::uint32_t n = uses_.number(operand);
     if (n == never || registers_[n] != never) return;
     const std::uint32_t again = uses_.next_after(n, event_);
     if (again == never || again == end_) return;
-    if (free_register(never, pinned) == never) {
-      const std::uint32_t r = victim(pinned);
+    if (free_register(never, reserved_registers) == never) {
+      const std::uint32_t r = register_to_free(reserved_registers);
       if (uses_.next(in_register_[r]) <= again) return;
     }
-    const std::uint32_t r = take_register(never, pinned);
+    const std::uint32_t r = take_register(never, reserved_registers);
     emit_move(reg(r), memory_[n]);
     bind(n, r);
   }
@@ -292,14 +294,14 @@ class Allocator {
     std::vector<Move> moves;
     for (std::uint32_t k = 0; k < values_; ++k) {
       const std::uint32_t n = uses_.number(program_.outputs[k]);
-      const Place to = register_home_[k] != never ? reg(register_home_[k]) : home(k);
+      const Place to = fixed_register_[k] != never ? reg(fixed_register_[k]) : home(k);
       if (n != never && memory_[n] == to) continue;
       moves.push_back({place_of(program_.outputs[k]), to});
     }
     append_moves(result_.body, std::move(moves), static_cast<std::uint32_t>(in_register_.size()) - 1,
                  [this] { return new_slot(); });
     for (const std::uint32_t k : program_.ends_at) {
-      result_.ends_at.push_back(register_home_[k] != never ? reg(register_home_[k]) : home(k));
+      result_.ends_at.push_back(fixed_register_[k] != never ? reg(fixed_register_[k]) : home(k));
     }
   }
 
@@ -314,7 +316,7 @@ class Allocator {
   std::vector<Place> memory_;               // the place in memory of each number, or nowhere
   std::vector<std::uint32_t> output_;       // the first output that equals a number
   std::vector<char> is_dead_;
-  std::vector<std::uint32_t> register_home_;  // the fixed register of each carried value, if it has one
+  std::vector<std::uint32_t> fixed_register_;  // the fixed register of each carried value, if it has one
   std::vector<std::uint32_t> free_slots_;
   std::uint32_t event_ = 0;
   PlacedProgram result_;

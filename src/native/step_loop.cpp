@@ -1,4 +1,4 @@
-#include "is_asked.hpp"
+#include "is_enabled.hpp"
 #include "machine_code.hpp"
 #include "passes.hpp"
 
@@ -22,7 +22,7 @@ class MachineCode final : public StepLoop {
 
 /// Schedules a program, unless that adds more than 3 % of lines for loads and stores. Scheduling makes rk4 and
 /// compensated sums 3 to 12 % faster. Five bodies, whose numbers do not fit into the registers, would be 7 % slower.
-PlacedProgram placed_well(const Program& program, unsigned registers) {
+PlacedProgram place_with_best_schedule(const Program& program, unsigned registers) {
   PlacedProgram as_written = placed(with_both(program), registers),
                 early = placed(with_both(scheduled(program)), registers);
   const std::size_t lines = as_written.body.size();
@@ -35,7 +35,7 @@ std::unique_ptr<const StepLoop> make_machine_code(const Program& program) {
   const unsigned registers = scalar_registers();
   if (registers == 0) return nullptr;
   const Program ready = simplified(program);
-  auto function = assembled(placed_well(ready, registers), ready.constants);
+  auto function = assembled(place_with_best_schedule(ready, registers), ready.constants);
   return function ? std::make_unique<MachineCode>(std::move(function)) : nullptr;
 }
 

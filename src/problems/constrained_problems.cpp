@@ -160,7 +160,7 @@ std::optional<Frame> exact_pendulum(const Texts& parameters, const std::vector<d
     if (!at) return std::nullopt;
     return LongState{at->q[0], at->p[0]};
   };
-  const auto end = known_exact(motion, {angle.q[0], angle.p[0]}, t, {});
+  const auto end = exact_state_if_accurate(motion, {angle.q[0], angle.p[0]}, t, {});
   if (!end) return std::nullopt;
   const auto there = Chart::from_angles(given, Start<long double, 1>{{(*end)[0]}, {(*end)[1]}});
   Frame frame = Chart::frame_of(Start<double, 2>{cast<double>(there.q), cast<double>(there.p)});

@@ -103,7 +103,7 @@ StateOf<R> start_of(const Typed& typed, const AnyFormula<R>& problem, const Requ
     if (!spec.v.empty()) s.p = ProblemStart<AnyFormula>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };
-  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), request));
+  return spec.energy.empty() ? with(R(0)) : with(component_for_energy(energy_line(problem, with), request));
 }
 
 std::unique_ptr<Simulation> without_time(const EntryModel& model, std::unique_ptr<Simulation> simulation) {
@@ -194,7 +194,7 @@ Frame frame_of(const StateOf<double>& s, std::size_t size) {
 
 /// Whether gradients are linearly dependent or vanish, to the rounding of their entries. The multipliers of such
 /// constraints are undefined.
-bool depend_on_each_other(const Gradients<double, dynamic>& rows) {
+bool are_linearly_dependent(const Gradients<double, dynamic>& rows) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   Gradients<double, dynamic> units;
   for (Vector<double, dynamic> row : rows) {
@@ -324,7 +324,7 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
     e.constraint_form = model.structure().multiplier ? FormulaKeys::multiplier : FormulaKeys::manifold;
     e.refused_start = [bound, degrees](const Texts& parameters, const std::vector<double>& q) -> std::string {
       const auto rows = constraint_gradients(bound(parameters), vector_of(q, degrees));
-      if (!depend_on_each_other(rows)) return {};
+      if (!are_linearly_dependent(rows)) return {};
       return rows.size() == 1 ? "a constraint whose gradient vanishes at the start; allowed a constraint with a "
                                 "gradient other than 0 there"
                               : "constraints whose gradients are linearly dependent at the start; allowed independent "

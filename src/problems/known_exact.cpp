@@ -43,8 +43,8 @@ long double noise_of(std::array<long double, points> values) {
 
 }  // namespace
 
-std::optional<LongState> known_exact(const LongMotion& motion, const LongState& start, long double t,
-                                     const std::vector<bool>& is_angle) {
+std::optional<LongState> exact_state_if_accurate(const LongMotion& motion, const LongState& start, long double t,
+                                                 const std::vector<bool>& is_angle) {
   constexpr long double epsilon = std::numeric_limits<double>::epsilon();
   constexpr long double turn = 2 * std::numbers::pi_v<long double>;
   const auto near = neighbours_of(motion, start, t);

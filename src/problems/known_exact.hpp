@@ -16,7 +16,7 @@ using LongMotion = std::function<std::optional<LongState>(const LongState& z, lo
 /// sixteenth of the effect of rounding the start and the time. The rounding error is measured: a smooth function has
 /// small third differences over neighbouring starts, so larger ones are noise. [MoreWild2011] @param is_angle for each
 /// coordinate: whether it is known only modulo 2 pi
-std::optional<LongState> known_exact(const LongMotion& motion, const LongState& start, long double t,
-                                     const std::vector<bool>& is_angle);
+std::optional<LongState> exact_state_if_accurate(const LongMotion& motion, const LongState& start, long double t,
+                                                 const std::vector<bool>& is_angle);
 
 }  // namespace hamflow

@@ -142,7 +142,7 @@ class ProblemFacts : ProblemStart<Family> {
     start.insert(start.end(), p.begin(), p.end());
     std::vector<bool> is_angle;
     for (const std::string& coordinate : P::info().coordinates) is_angle.push_back(coordinate == "phi");
-    const auto end = known_exact(motion, start, t, is_angle);
+    const auto end = exact_state_if_accurate(motion, start, t, is_angle);
     if (!end) return std::nullopt;
     Frame frame;
     frame.time = t;

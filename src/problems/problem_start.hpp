@@ -54,7 +54,7 @@ struct ProblemStart {
     if (!spec.energy.empty()) {
       const Family<R> problem = make<R>(parameters_of<R>(request), spec.q.size());
       const auto at = [&](const R& free) { return start_with<R>(request, free); };
-      return at(left_to_energy(energy_line(problem, at), request));
+      return at(component_for_energy(energy_line(problem, at), request));
     }
     return start_with<R>(request, R(0));
   }

@@ -48,7 +48,7 @@ std::string name_of_open(const StartSpec& spec) {
 }  // namespace
 
 template <class R>
-R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
+R component_for_energy(const EnergyLine<R>& without_walls, const Request& request) {
   const StartSpec& spec = request.start;
   EnergyLine<R> line = without_walls;
   if (const auto walls = request.walls) {
@@ -114,9 +114,9 @@ R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
                 "| up to 2^100, except perhaps between two points of the search");
 }
 
-template double left_to_energy(const EnergyLine<double>&, const Request&);
-template DoubleDouble left_to_energy(const EnergyLine<DoubleDouble>&, const Request&);
-template Quad left_to_energy(const EnergyLine<Quad>&, const Request&);
-template Mp left_to_energy(const EnergyLine<Mp>&, const Request&);
+template double component_for_energy(const EnergyLine<double>&, const Request&);
+template DoubleDouble component_for_energy(const EnergyLine<DoubleDouble>&, const Request&);
+template Quad component_for_energy(const EnergyLine<Quad>&, const Request&);
+template Mp component_for_energy(const EnergyLine<Mp>&, const Request&);
 
 }  // namespace hamflow

@@ -25,7 +25,7 @@ struct EnergyLine {
 /// The open component; soft walls of the request are a term of H.
 /// @param line of the problem without walls @throws NoStart if no value has that energy
 template <class R>
-R left_to_energy(const EnergyLine<R>& line, const Request& request);
+R component_for_energy(const EnergyLine<R>& line, const Request& request);
 
 namespace detail {
 

@@ -5,7 +5,7 @@
 #include "gas_start.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
-#include "hdf5_alone.hpp"
+#include "hdf5_lock.hpp"
 #include "hdf5_read.hpp"
 
 namespace hamflow {
@@ -101,7 +101,7 @@ std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
 }  // namespace
 
 GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunState which) {
-  const auto alone = alone_with_hdf5();
+  const auto alone = lock_hdf5();
   silence_hdf5();
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none) || !std::ifstream(file).good()) {
@@ -131,7 +131,7 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
 bool is_in_run_file(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) return false;
-  const auto alone = alone_with_hdf5();
+  const auto alone = lock_hdf5();
   silence_hdf5();
   return H5Fis_hdf5(file.c_str()) > 0;
 }

@@ -130,8 +130,8 @@ struct SharedMethodKeys::Impl {
 
 SharedMethodKeys::SharedMethodKeys(const std::string& text, const std::vector<std::string>& sets)
     : impl_(std::make_unique<Impl>()) {
-  std::vector<Complaint> told_elsewhere;
-  impl_->document = parsed_document(text, "", sets, told_elsewhere);
+  std::vector<Complaint> ignored_complaints;
+  impl_->document = parsed_document(text, "", sets, ignored_complaints);
   if (impl_->document) impl_->settings = settings_of(impl_->document->root);
 }
 

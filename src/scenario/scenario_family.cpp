@@ -69,7 +69,7 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
     const std::size_t size = scenario.request.start.q.size();
     scenario.start_q.assign(size, std::numeric_limits<double>::quiet_NaN());
     scenario.start_p = scenario.start_q;
-    reading.startless = std::move(scenario);
+    reading.scenario_without_start = std::move(scenario);
   }
   return reading;
 }

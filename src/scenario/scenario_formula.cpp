@@ -127,7 +127,7 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
 
 /// Notes coordinates that do not move: dq/dt = dH/dp is 0 if H does not contain p. Arrays such as p_x[i] are not
 /// checked.
-void ScenarioReader::note_standing_still(const FormulaTexts& texts) {
+void ScenarioReader::note_constant_coordinates(const FormulaTexts& texts) {
   const StateNames names = state_names(*scenario_.problem, texts.parameters, scenario_.problem->dimension);
   const std::set<std::string> words = words_of(texts.hamiltonian + " " + texts.kinetic);
   if (!texts.constraints.empty()) return;
@@ -209,7 +209,7 @@ std::string* formula_at(FormulaTexts& texts, const std::string& key) {
 }  // namespace
 
 /// Complains about further wrong formulas. It replaces each wrong formula by "0" and checks again, until none is wrong.
-void ScenarioReader::tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong) {
+void ScenarioReader::report_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong) {
   const std::string right = "0";
   for (;;) {
     std::string* const formula = formula_at(texts, wrong);
@@ -255,14 +255,14 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const ProblemEntry& li
     scenario_.problem = find_problem(name, request.variant);
     if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
-    if (whole) note_standing_still(*texts);
+    if (whole) note_constant_coordinates(*texts);
     if (whole && scenario_.problem->structure->time) {
       driven_hamiltonian_ =
           !texts->hamiltonian.empty() ? texts->hamiltonian : "(" + texts->kinetic + ") + (" + texts->potential + ")";
     }
   } catch (const FormulaError& error) {
     table.complain_in(error.key, error.what());
-    if (texts) tell_other_formulas(table, *texts, error.key);
+    if (texts) report_other_formulas(table, *texts, error.key);
   } catch (const Error& error) {
     table.complain("name", error.what());
   }

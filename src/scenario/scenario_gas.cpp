@@ -24,7 +24,7 @@ namespace {
 
 /// Complains about keys that the gas has in another table, and names the right table.
 /// @param own path of the table, with a final dot
-void tell_places(TomlTable& table, const std::string& own) {
+void name_right_tables(TomlTable& table, const std::string& own) {
   const GasOptions& o = gas_options();
   const WallKeys& walls = wall_keys();
   std::vector<OptionInfo> direct = all_gas_options();
@@ -78,7 +78,7 @@ void read_container(TomlTable& table, Choices& choices, Texts& parameters) {
                                   wall_keys().wall_rule.name + " defines what happens there");
     container.know(walls);
   }
-  tell_places(container, "problem.container.");
+  name_right_tables(container, "problem.container.");
   container.finish();
 }
 
@@ -109,7 +109,7 @@ void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
                     cutoff.found(o.of_cutoff.inner.name) + "; allowed " + o.of_cutoff.inner.condition);
   }
   if (const auto skin = cutoff.text(o.of_cutoff.skin)) parameters[GasKeys::skin] = *skin;
-  tell_places(cutoff, "problem.cutoff.");
+  name_right_tables(cutoff, "problem.cutoff.");
   cutoff.finish();
 }
 
@@ -161,7 +161,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
       if (table.has(key->name)) table.complain(key->name, table.found(key->name) + "; allowed " + key->condition);
     }
   }
-  tell_places(table, "problem.");
+  name_right_tables(table, "problem.");
   read_container(table, request.variant, parameters);
   if (const std::string& e = wall_keys().exponent.name; table.has(e) && !table.has(wall_keys().walls.name) &&
                                                         request.variant[GasKeys::container] == ContainerNames::circle) {

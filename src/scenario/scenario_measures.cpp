@@ -142,7 +142,7 @@ void ScenarioReader::read_section(TomlTable& table) {
                                     keys.expression.name + "; allowed with one of them");
       }
     }
-    wanted.every_step = wanted.by_time_alone = true;
+    wanted.every_step = wanted.is_stroboscopic = true;
     scenario_.section = wanted;
     section.finish();
     return;
@@ -206,8 +206,8 @@ void ScenarioReader::read_section_expression(TomlTable& section, Section wanted)
   if (!expression) return;
   const std::size_t dimension = scenario_.start_q.size();
   const std::size_t first = first_used(*expression, 2 * dimension);
-  wanted.by_time_alone = first == 2 * dimension;
-  if (!wanted.by_time_alone) {
+  wanted.is_stroboscopic = first == 2 * dimension;
+  if (!wanted.is_stroboscopic) {
     wanted.coordinate = first % dimension;
     wanted.momentum = first >= dimension;
   }

@@ -31,7 +31,7 @@ FigureFacts ScenarioReader::figure_facts() const {
   FigureFacts facts{.degrees_of_freedom = scenario_.start_q.size(),
                     .diagnostics = has_method() && describe(scenario_.request.method).diagnostics,
                     .section = scenario_.section.has_value(),
-                    .stroboscopic = scenario_.section && scenario_.section->by_time_alone};
+                    .stroboscopic = scenario_.section && scenario_.section->is_stroboscopic};
   if (scenario_.problem != nullptr) {
     const auto& invariants = scenario_.problem->info.invariants;
     const std::vector<std::string> in_space{"x", "y", "z"};

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "hamflow/formula/problem_texts.hpp"
-#include "meant.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
+#include "suggested_names.hpp"
 
 namespace hamflow {
 
@@ -88,7 +88,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
     const std::string meant = suggested_problem(given);
     table.complain(key.name, "found \"" + given + "\"; allowed " + allowed_text(key) + meant);
     const std::string near = nearest(given, problem_names());
-    if (meant == "; did you mean " + near + "?") read_uncertain(table, near);
+    if (meant == "; did you mean " + near + "?") read_without_variant(table, near);
     return;
   }
   const auto name = table.text(key);
@@ -106,7 +106,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const bool particles = static_cast<bool>(listed->particles);
   particles ? read_gas(table) : typed ? read_typed_problem(table, *listed) : read_variant(table, *name);
   if (scenario_.problem == nullptr) {
-    if (!particles) read_uncertain(table, *name);  // read_gas() has reported all errors of a gas
+    if (!particles) read_without_variant(table, *name);  // read_gas() has reported all errors of a gas
     return;
   }
   const std::size_t before = complaints_.size();
@@ -163,7 +163,7 @@ void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
 
 /// Called if the variant or the name is wrong, which has been reported. Complains about all keys that are wrong for
 /// every variant, so that the user sees all errors at once.
-void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
+void ScenarioReader::read_without_variant(TomlTable& table, const std::string& name) {
   std::vector<std::string> seen;
   std::vector<std::string> kinds;
   std::vector<std::string> orbit_keys{"direction"};

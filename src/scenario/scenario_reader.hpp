@@ -69,15 +69,15 @@ class ScenarioReader {
 
  private:
   void read_problem(TomlTable& table);
-  void read_uncertain(TomlTable& table, const std::string& name);
+  void read_without_variant(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
   static std::vector<std::string> choices_of_key(const std::string& name, const std::string& key);
   void read_typed_problem(TomlTable& table, const ProblemEntry& listed);
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
-  static void tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong);
+  static void report_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong);
   Texts read_typed_parameters(TomlTable& table);
   void check_invariant_names(TomlTable& table, const FormulaTexts& texts);
-  void note_standing_still(const FormulaTexts& texts);
+  void note_constant_coordinates(const FormulaTexts& texts);
   void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
   void read_gas(TomlTable& table);
   void read_typed_pair(TomlTable& table, Texts& parameters);

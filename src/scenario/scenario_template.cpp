@@ -334,8 +334,8 @@ class TemplateWriter {
     std::vector<std::string> names;
     for (const MethodEntry& entry : methods()) {
       const MethodSpec spec{.name = entry.name};
-      const bool meets_walls_twice = !info_.walls.empty() && describe(spec).carries_copy;
-      if (problem_.accepts(spec) && !meets_walls_twice) names.push_back(entry.name);
+      const bool copy_meets_walls_separately = !info_.walls.empty() && describe(spec).carries_copy;
+      if (problem_.accepts(spec) && !copy_meets_walls_separately) names.push_back(entry.name);
     }
     page_.prose("Allowed methods: " + joined(names) + ". hamflow show NAME describes one.");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);

@@ -12,7 +12,7 @@ class Walk {
  public:
   explicit Walk(std::string_view text) : text_(text) {}
 
-  std::optional<TooDeep> carry_out() {
+  std::optional<NestingError> carry_out() {
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
       if (c == '"' || c == '\'') {
@@ -47,9 +47,9 @@ class Walk {
     }
   }
 
-  TooDeep here(const std::string& found, int most, const std::string& things) const {
+  NestingError here(const std::string& found, int most, const std::string& things) const {
     const std::string_view before = text_.substr(0, at_);
-    TooDeep where;
+    NestingError where;
     for (const char c : before) where.line += c == '\n' ? 1 : 0;
     where.column = static_cast<int>(at_ - (before.rfind('\n') + 1)) + 1;
     where.message =
@@ -65,6 +65,6 @@ class Walk {
 
 }  // namespace
 
-std::optional<TooDeep> too_deep(const std::string& toml) { return Walk(toml).carry_out(); }
+std::optional<NestingError> too_deep(const std::string& toml) { return Walk(toml).carry_out(); }
 
 }  // namespace hamflow

@@ -12,13 +12,13 @@ constexpr int most_key_parts = 16;
 constexpr int most_nested_brackets = 32;
 
 /// Position at which a text is nested too deeply, with a message.
-struct TooDeep {
+struct NestingError {
   int line = 1;
   int column = 1;
   std::string message;  // "found ...; allowed ..."
 };
 
 /// Returns the first key with too many parts, or the first bracket that is nested too deeply; nullopt if there is none.
-std::optional<TooDeep> too_deep(const std::string& toml);
+std::optional<NestingError> too_deep(const std::string& toml);
 
 }  // namespace hamflow

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "hamflow/core/problem_info.hpp"
-#include "meant.hpp"
+#include "suggested_names.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {

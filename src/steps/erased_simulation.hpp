@@ -2,7 +2,7 @@
 // double have a separate file with light optimisation, because only few of their steps run as compiled code.
 #pragma once
 
-#include "engine/asking_functions.hpp"
+#include "engine/interruptible_functions.hpp"
 #include "engine/iterated_simulation.hpp"
 #include "engine/iteration_recorder.hpp"
 #include "engine/recorded_simulation.hpp"
@@ -73,10 +73,10 @@ StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, 
     return {};
   } else {
     const StepControl control = step_control_of(request.method);
-    const bool natural = includes(run.functions.capability, natural_face);
+    const bool natural = includes(run.functions.capability, natural_capabilities);
     const bool by_hessian = run.functions.size <= detail::most_with_hessian;
     if (control.monitor == default_monitor && !(natural && by_hessian)) return {};
-    using Monitored = AnyProblem<Trace<double>, natural_face>;
+    using Monitored = AnyProblem<Trace<double>, natural_capabilities>;
     return [problem = Traced(run.functions.size, run.functions.trace), recipe,
             monitor = step_monitor(Monitored(run.functions.size, run.functions.trace), control)](
                const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
@@ -170,7 +170,7 @@ template <class R>
 std::unique_ptr<Simulation> simulate_asked(const ErasedRun<R>& run, const Request& request) {
   const auto& walls = request.walls;
   if (!walls) return simulate_without_walls(run, request);
-  return simulate_behind_walls<R>(run, request, *walls, simulate_without_walls<R>);
+  return simulate_with_walls<R>(run, request, *walls, simulate_without_walls<R>);
 }
 
 /// A step in mp(d) can take minutes, so it can be interrupted.

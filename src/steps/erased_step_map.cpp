@@ -29,18 +29,20 @@ TangentSteps tangents_of(const ErasedFunctions<double>& functions, const Recipe&
 
 /// The capability set for exact flows: only two kinds of flows are compiled, for any method.
 template <Capability c>
-constexpr Capability flow_face = includes(c, Capability::constrained) ? c : Capability::smooth;
+constexpr Capability flow_capabilities = includes(c, Capability::constrained) ? c : Capability::smooth;
 
 template <Capability c, class R>
 auto flow_of(const ErasedFunctions<R>& functions) {
-  return [problem = functions.template as<flow_face<c>>()](const State<R>& z, const R& t) {
+  return [problem = functions.template as<flow_capabilities<c>>()](const State<R>& z, const R& t) {
     return detail::flow_of(problem, z, t);
   };
 }
 
 template <Capability c>
 auto settle_of(const ErasedFunctions<Quad>& functions) {
-  return [problem = functions.as<flow_face<c>>()](const State<Quad>& z) { return detail::settled_on(problem, z); };
+  return [problem = functions.as<flow_capabilities<c>>()](const State<Quad>& z) {
+    return detail::projected_to_constraints(problem, z);
+  };
 }
 
 auto simulations(const ErasedFunctions<double>& functions, const MethodSpec& method) {
@@ -84,7 +86,7 @@ std::unique_ptr<StepMap> map_without_walls(const ErasedProblem& problem, const M
 
 std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Request& request) {
   const auto& walls = request.walls;
-  return walls ? step_map_behind_walls(problem, request, *walls, map_without_walls)
+  return walls ? step_map_with_walls(problem, request, *walls, map_without_walls)
                : map_without_walls(problem, request.method);
 }
 

@@ -12,9 +12,9 @@ LaneRun::LaneRun(EnsembleBlock& block, std::vector<LaneObservers> observers)
     return;
   }
   call_due_observers();
-  spare_summed_steps();
-  for (TangentWatch* watch : observers_[0].tangents) {
-    const std::optional<TangentsUnderWay> vectors = watch->under_way();
+  use_block_sums();
+  for (TangentObserver* watch : observers_[0].tangents) {
+    const std::optional<TangentsToAdvance> vectors = watch->tangents_to_advance();
     go_in_lanes_.push_back(vectors && block_.expect_tangents(vectors->vectors->size()));
   }
   if (!has_sections_) return;
@@ -38,7 +38,7 @@ void LaneRun::advance(std::int64_t steps) {
 }
 
 /// If the block sums observables itself, observers that only need sums have seen the start and are not called again.
-void LaneRun::spare_summed_steps() {
+void LaneRun::use_block_sums() {
   std::vector<std::span<const NamedExpression>> summed;
   for (const LaneObservers& observers : observers_) {
     if (observers.sums == nullptr) return;
@@ -72,7 +72,7 @@ std::int64_t LaneRun::next_due() const {
 }
 
 void LaneRun::call_due_observers() {
-  if (taken_ > 0) carry_tangents();
+  if (taken_ > 0) advance_tangents();
   for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
     if (block_.is_lost(lane)) continue;
     bool shown = false;
@@ -87,15 +87,15 @@ void LaneRun::call_due_observers() {
 }
 
 /// When the vectors of one lane are due, those of all lanes are advanced to their next observations.
-void LaneRun::carry_tangents() {
+void LaneRun::advance_tangents() {
   for (std::size_t kind = 0; kind < go_in_lanes_.size(); ++kind) {
     if (!go_in_lanes_[kind]) continue;
     jobs_.clear();
     bool wanted = false;
     for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
-      TangentWatch& watch = *observers_[lane].tangents[kind];
+      TangentObserver& watch = *observers_[lane].tangents[kind];
       if (block_.is_lost(lane)) continue;
-      const std::optional<TangentsUnderWay> vectors = watch.under_way();
+      const std::optional<TangentsToAdvance> vectors = watch.tangents_to_advance();
       if (!vectors) continue;
       wanted = wanted || watch.next_due(taken_) == taken_;
       jobs_.push_back({lane, vectors->z, vectors->vectors, vectors->steps});
@@ -103,7 +103,7 @@ void LaneRun::carry_tangents() {
     if (!wanted) continue;
     block_.carry(jobs_);
     for (const LaneTangents& job : jobs_) {  // the watch itself advances the vectors that were not carried
-      if (job.carried) observers_[job.lane].tangents[kind]->set_carried();
+      if (job.carried) observers_[job.lane].tangents[kind]->set_advanced();
     }
   }
 }

@@ -15,7 +15,7 @@ namespace hamflow {
 /// Observers of the member in one lane.
 struct LaneObservers {
   std::vector<Observer*> all{};
-  std::vector<TangentWatch*> tangents{};  // those of `all` that carry tangent vectors
+  std::vector<TangentObserver*> tangents{};  // those of `all` that carry tangent vectors
   SectionSearch* section = nullptr;
   SummedSteps* sums = nullptr;  // the one of `all` that can take sums in place of steps
 };
@@ -33,9 +33,9 @@ class LaneRun {
  private:
   std::int64_t next_due() const;
   void call_due_observers();
-  void carry_tangents();
+  void advance_tangents();
   void look_for_sections();
-  void spare_summed_steps();
+  void use_block_sums();
   double section_distance(std::size_t lane);
 
   EnsembleBlock& block_;

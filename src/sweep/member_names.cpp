@@ -55,8 +55,8 @@ void SweepNames::add(std::size_t member, const MemberNames& names, const std::st
 }
 
 template <class NamesOf>
-std::vector<UnitedName> SweepNames::united(const NamesOf& names_of) const {
-  std::vector<UnitedName> all;
+std::vector<MergedName> SweepNames::united(const NamesOf& names_of) const {
+  std::vector<MergedName> all;
   std::map<std::string, std::size_t> known;
   for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
     const std::vector<std::string> names = names_of(kinds_[kind].names);
@@ -69,7 +69,7 @@ std::vector<UnitedName> SweepNames::united(const NamesOf& names_of) const {
   return all;
 }
 
-SweepNames::Clash SweepNames::unite() {
+SweepNames::NameConflict SweepNames::merge_all() {
   // Threads meet the kinds in any order, so kinds are sorted by their first members.
   std::vector<std::uint32_t> order(kinds_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -96,8 +96,8 @@ SweepNames::Clash SweepNames::unite() {
   return clash();
 }
 
-SweepNames::Clash SweepNames::clash() const {
-  for (const UnitedName& invariant : invariants_) {
+SweepNames::NameConflict SweepNames::clash() const {
+  for (const MergedName& invariant : invariants_) {
     const Kind* before = nullptr;
     const auto size_of = [&](const Kind& kind) {
       const auto& places = invariant.places[static_cast<std::size_t>(&kind - kinds_.data())];
@@ -114,7 +114,7 @@ SweepNames::Clash SweepNames::clash() const {
   return {};
 }
 
-std::size_t SweepNames::size(const UnitedName& invariant) const {
+std::size_t SweepNames::size(const MergedName& invariant) const {
   for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
     if (!invariant.places[kind].empty()) return kinds_[kind].names.sizes[invariant.places[kind].front()];
   }

@@ -31,7 +31,7 @@ struct MemberNames {
 
 /// A name that some members have, and its places in the lists of each kind of members. A kind without the name has no
 /// place; several walls that are counted together have several.
-struct UnitedName {
+struct MergedName {
   std::string name;
   std::vector<std::vector<std::size_t>> places;
 };
@@ -45,27 +45,27 @@ class SweepNames {
   void add(std::size_t member, const MemberNames& names, const std::string& key);
   /// Call this after all members were added. Returns an invariant that cannot be in one table because members disagree
   /// on its number of components, with two such members; otherwise the name is empty.
-  struct Clash {
+  struct NameConflict {
     std::string name;
     std::size_t sizes[2] = {};
     std::size_t members[2] = {};
   };
-  Clash unite();
+  NameConflict merge_all();
 
   const MemberNames& of(std::size_t member) const { return kinds_[kind_of_[member]].names; }
   /// Names of all members, in the order in which the members have them.
-  const std::vector<UnitedName>& invariants() const { return invariants_; }
-  const std::vector<UnitedName>& walls() const { return walls_; }
-  const std::vector<UnitedName>& events() const { return events_; }
-  const std::vector<UnitedName>& observables() const { return observables_; }
+  const std::vector<MergedName>& invariants() const { return invariants_; }
+  const std::vector<MergedName>& walls() const { return walls_; }
+  const std::vector<MergedName>& events() const { return events_; }
+  const std::vector<MergedName>& observables() const { return observables_; }
   /// Returns the number of components of an invariant.
-  std::size_t size(const UnitedName& invariant) const;
+  std::size_t size(const MergedName& invariant) const;
   /// Returns whether an event can end the run of any member.
   bool stop() const;
   /// Names of coordinates and momenta; q1, p1, ... if members disagree.
   const StateNames& state() const { return state_; }
   bool have_same_state() const { return same_state_; }
-  const std::vector<std::size_t>& places(const UnitedName& name, std::size_t member) const {
+  const std::vector<std::size_t>& places(const MergedName& name, std::size_t member) const {
     return name.places[kind_of_[member]];
   }
 
@@ -75,13 +75,13 @@ class SweepNames {
     std::size_t first;  // index of its first member
   };
   template <class NamesOf>
-  std::vector<UnitedName> united(const NamesOf& names_of) const;
-  Clash clash() const;
+  std::vector<MergedName> united(const NamesOf& names_of) const;
+  NameConflict clash() const;
 
   std::vector<Kind> kinds_;
   std::vector<std::uint32_t> kind_of_;  // kind of each member
   std::map<std::string, std::uint32_t> known_;
-  std::vector<UnitedName> invariants_, walls_, events_, observables_;
+  std::vector<MergedName> invariants_, walls_, events_, observables_;
   StateNames state_;
   bool same_state_ = true;
 };

@@ -43,10 +43,11 @@ class MemberReader {
   /// Marks a member as complete except for its start.
   static void without_start(Reading& reading, const std::string& why) {
     reading.no_start = why;
-    if (reading.scenario) reading.startless = std::exchange(reading.scenario, std::nullopt);
-    if (!reading.startless) return;
-    reading.startless->start_q.assign(reading.startless->start_q.size(), std::numeric_limits<double>::quiet_NaN());
-    reading.startless->start_p = reading.startless->start_q;
+    if (reading.scenario) reading.scenario_without_start = std::exchange(reading.scenario, std::nullopt);
+    if (!reading.scenario_without_start) return;
+    reading.scenario_without_start->start_q.assign(reading.scenario_without_start->start_q.size(),
+                                                   std::numeric_limits<double>::quiet_NaN());
+    reading.scenario_without_start->start_p = reading.scenario_without_start->start_q;
   }
   /// A value of a list is parsed once if several members have it. Values of a formula, and of a list as long as the
   /// sweep, are parsed for each member: a million parsed values would take 300 MB.

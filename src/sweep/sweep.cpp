@@ -87,7 +87,7 @@ class Sweep::Worker {
   struct Watched {
     Scenario scenario;
     MemberRow row{};
-    std::unique_ptr<MemberWatch> watch{};
+    std::unique_ptr<MemberObserver> watch{};
     std::optional<SectionSearch> section{};
   };
 
@@ -174,7 +174,7 @@ class Sweep::Worker {
     if (watched.section) take_section(*watched.section, row);
     if (row.status == Outcome::done) {
       if (watched.watch) row.observables = watched.watch->row();
-      if (is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(member), row);
+      if (may_be_meaningless(row)) row.nonsense = sweep_.options_.is_meaningless(scenario_of(member), row);
     }
     sweep_.put(member, std::move(row));
   }
@@ -204,7 +204,7 @@ class Sweep::Worker {
       finder.emplace(*simulation, *scenario.section, points_of(row));
       observers.push_back(&*finder);
     }
-    std::unique_ptr<MemberWatch> watch;
+    std::unique_ptr<MemberObserver> watch;
     if (const MemberObservables seen = sweep_.observables_of(scenario); seen.watch) {
       watch = seen.watch(scenario, simulation.get());
       const std::vector<Observer*> more = watch->observers();
@@ -216,7 +216,7 @@ class Sweep::Worker {
     if (finder) take_section(finder->search(), row);
     Frame frame;
     simulation->look(frame);
-    if (watch) carry_to_the_end(watch->tangents(), frame);
+    if (watch) advance_tangents_to_end(watch->tangents(), frame);
     row.status = outcome;
     row.steps = frame.step;
     row.t = frame.time;
@@ -236,7 +236,8 @@ class Sweep::Worker {
     if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);
     // Without a step, too, a member reports what its start shows, like a single run.
     if (watch && (frame.step > 0 || outcome != Outcome::stopped)) row.observables = watch->row();
-    if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
+    if (outcome == Outcome::done && may_be_meaningless(row))
+      row.nonsense = sweep_.options_.is_meaningless(scenario, row);
     sweep_.put(member, std::move(row));
   }
 
@@ -246,8 +247,8 @@ class Sweep::Worker {
     return energy;
   }
 
-  bool is_suspect(const MemberRow& row) const {
-    if (!sweep_.options_.is_nonsense || std::isnan(row.energy.scale())) return false;
+  bool may_be_meaningless(const MemberRow& row) const {
+    if (!sweep_.options_.is_meaningless || std::isnan(row.energy.scale())) return false;
     return row.energy.max_error > (row.energy.exchanged > 0 ? row.energy.exchanged : row.energy.scale());
   }
 

@@ -72,12 +72,12 @@ struct MemberRow {
 };
 
 /// Observes one member, alone or in a lane. In a lane, frames only contain step, time, q and p.
-class MemberWatch {
+class MemberObserver {
  public:
-  virtual ~MemberWatch() = default;
+  virtual ~MemberObserver() = default;
   virtual std::vector<Observer*> observers() = 0;
   /// Those observers that carry tangent vectors.
-  virtual std::vector<TangentWatch*> tangents() { return {}; }
+  virtual std::vector<TangentObserver*> tangents() { return {}; }
   /// The observer that only needs sums over the steps; null if there is none.
   virtual SummedSteps* sums() { return nullptr; }
   /// The results of a finished run: a number for each of MemberObservables::names.
@@ -89,8 +89,8 @@ class MemberWatch {
 };
 
 /// Advances tangent vectors to the end of a run, because an event or a failure may come before their next observation.
-inline void carry_to_the_end(std::span<TangentWatch* const> watches, const Frame& end) {
-  for (TangentWatch* watch : watches) {
+inline void advance_tangents_to_end(std::span<TangentObserver* const> watches, const Frame& end) {
+  for (TangentObserver* watch : watches) {
     if (watch->followed() && watch->step() < end.step) (void)watch->observe(end);
   }
 }
@@ -100,7 +100,7 @@ struct MemberObservables {
   std::vector<std::string> names;
   /// Makes the observers of a member; empty: nothing is measured.   @param alone simulation of a member that runs
   /// alone; null in a lane. It and the scenario outlive the watch.
-  std::function<std::unique_ptr<MemberWatch>(const Scenario&, const Simulation* alone)> watch;
+  std::function<std::unique_ptr<MemberObserver>(const Scenario&, const Simulation* alone)> watch;
 };
 
 struct SweepOptions {
@@ -110,7 +110,7 @@ struct SweepOptions {
   /// Returns the further columns of a member. Several threads call it.
   std::function<MemberObservables(const Scenario&)> observables_of{};
   /// Asked for finished members whose energy error is larger than their scale.
-  std::function<bool(const Scenario&, const MemberRow&)> is_nonsense{};
+  std::function<bool(const Scenario&, const MemberRow&)> is_meaningless{};
 };
 
 class Sweep {
@@ -193,9 +193,9 @@ class Sweep {
   void add(std::size_t member, const Scenario& scenario);
   void keep_notes(std::size_t member, const Scenario& scenario);
   MemberObservables observables_of(const Scenario& scenario) const;
-  void take_as_common(std::size_t member, const Scenario& scenario);
+  void keep_shared_settings(std::size_t member, const Scenario& scenario);
   void refuse_different_kinds();
-  void unite_names();
+  void merge_names();
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
   void put(std::size_t member, MemberRow row);

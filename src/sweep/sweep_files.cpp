@@ -4,7 +4,7 @@
 
 #include "csv_file.hpp"
 #include "hamflow/core/text.hpp"
-#include "hdf5_alone.hpp"
+#include "hdf5_lock.hpp"
 #include "hdf5_text.hpp"
 #include "sweep_table.hpp"
 #include "whole_file.hpp"
@@ -59,7 +59,7 @@ void write_column(hid_t file, const Column& column) {
 
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTables& tables,
                     const SweepDescription& description) {
-  const auto alone = alone_with_hdf5();
+  const auto alone = lock_hdf5();
   silence_hdf5();
   WholeFile whole(file, next_name(file));
   Hdf5Handle id = create_hdf5_in_usual_format(whole.part());

@@ -48,16 +48,16 @@ std::span<const std::byte> next_part(std::span<const std::byte>& left) {
 
 }  // namespace
 
-SweepPast read_journal(const std::filesystem::path& file) {
+StoredSweep read_journal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file.string());
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   return journal_in(std::as_bytes(std::span(text)), file.string());
 }
 
-SweepPast journal_in(std::span<const std::byte> left, const std::string& name) {
+StoredSweep journal_in(std::span<const std::byte> left, const std::string& name) {
   const auto damaged = [&](const std::string& how) { return FileError(name + " " + how + advice_to_overwrite()); };
-  SweepPast past;
+  StoredSweep past;
   std::uint64_t found[2] = {};
   if (left.size() < sizeof found) throw damaged("is damaged: it is too short");
   Reader(left.first(sizeof found))(found);
@@ -91,7 +91,7 @@ SweepPast journal_in(std::span<const std::byte> left, const std::string& name) {
   return past;
 }
 
-std::vector<std::byte> journal_bytes(const SweepPast& past) {
+std::vector<std::byte> journal_bytes(const StoredSweep& past) {
   Writer all;
   all(magic, format);
   const auto add = [&all](const std::vector<std::byte>& part) { all.raw(part.data(), part.size()); };
@@ -100,7 +100,7 @@ std::vector<std::byte> journal_bytes(const SweepPast& past) {
   return all.take();
 }
 
-SweepJournal::SweepJournal(const std::filesystem::path& file, const SweepPast& past) : file_(file) {
+SweepJournal::SweepJournal(const std::filesystem::path& file, const StoredSweep& past) : file_(file) {
   WholeFile whole(file, next_name(file));
   write_whole(whole, journal_bytes(past));
   descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);

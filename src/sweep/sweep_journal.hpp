@@ -15,7 +15,7 @@
 namespace hamflow {
 
 /// The header: the settings that must be the same for a sweep to be resumed.
-struct SweepHead {
+struct SweepIdentity {
   std::string version;            // version of hamflow
   std::vector<std::string> keys;  // settings of the scenario that all members share
   std::vector<std::string> values;
@@ -45,24 +45,24 @@ struct FinishedMember {
   }
 };
 
-struct SweepPast {
-  SweepHead head;
+struct StoredSweep {
+  SweepIdentity head;
   std::map<std::uint64_t, FinishedMember> members;
   std::uint64_t dropped_bytes = 0;  // bytes at the end that were incomplete or damaged
 };
 
 /// @throws FileError if it cannot be read, or its header is damaged or has another format
-SweepPast read_journal(const std::filesystem::path& file);
+StoredSweep read_journal(const std::filesystem::path& file);
 /// The same for bytes in memory. @param name name of the file, for messages   @throws FileError like read_journal()
-SweepPast journal_in(std::span<const std::byte> bytes, const std::string& name);
+StoredSweep journal_in(std::span<const std::byte> bytes, const std::string& name);
 /// Returns the content of a journal.
-std::vector<std::byte> journal_bytes(const SweepPast& past);
+std::vector<std::byte> journal_bytes(const StoredSweep& past);
 
 /// Appends records. After append() returns, the operating system has the record.
 class SweepJournal {
  public:
   /// Replaces the file by a new one that contains `past`.   @throws FileError
-  SweepJournal(const std::filesystem::path& file, const SweepPast& past);
+  SweepJournal(const std::filesystem::path& file, const StoredSweep& past);
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;

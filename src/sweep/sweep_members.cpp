@@ -16,7 +16,7 @@ namespace hamflow {
 
 namespace {
 /// Returns whether `part` is the key itself or a part of it, such as problem.initial.q[0] of problem.initial.
-bool leads_to(const std::string& key, const std::string& part) {
+bool is_key_or_part_of(const std::string& key, const std::string& part) {
   return part.starts_with(key) && (part.size() == key.size() || part[key.size()] == '.' || part[key.size()] == '[');
 }
 }  // namespace
@@ -48,7 +48,7 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
 /// Returns 0 if the member cannot be read; a message follows later.
 std::size_t Sweep::coordinates_of_first(MemberReader& reader) const {
   const Reading reading = reader.read(0);
-  const std::optional<Scenario>& any = reading.scenario ? reading.scenario : reading.startless;
+  const std::optional<Scenario>& any = reading.scenario ? reading.scenario : reading.scenario_without_start;
   return any ? any->start_q.size() : 0;
 }
 
@@ -67,7 +67,7 @@ void Sweep::read_members(const std::string& name) {
         const Reading reading = reader.read(member);
         if (reading.scenario) {
           add(member, *reading.scenario);
-        } else if (reading.startless) {
+        } else if (reading.scenario_without_start) {
           leave_without_start(member, reading);
         } else {
           add_complaints(member, reading, reader.paths());
@@ -82,7 +82,7 @@ void Sweep::read_members(const std::string& name) {
     return;
   }
   for (auto& [key, group] : groups_) std::sort(group.members.begin(), group.members.end());
-  unite_names();
+  merge_names();
 }
 
 /// Complains about the first member that differs from member 0, whatever the order in which threads read them.
@@ -101,8 +101,8 @@ MemberObservables Sweep::observables_of(const Scenario& scenario) const {
 }
 
 /// Unites the names of all members, because the rows of a table have the same columns.
-void Sweep::unite_names() {
-  const SweepNames::Clash clash = names_.unite();
+void Sweep::merge_names() {
+  const SweepNames::NameConflict clash = names_.merge_all();
   if (clash.name.empty()) return;
   const auto part = [&](std::size_t i) {
     return std::to_string(clash.sizes[i]) + (clash.sizes[i] == 1 ? " number in " : " numbers in ") +
@@ -119,7 +119,7 @@ void Sweep::add_complaints(std::size_t member, const Reading& reading, const std
   for (Complaint complaint : reading.complaints) {
     complaint.message = varied_.as_typed(complaint.message, member);
     const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
-      return leads_to(path, complaint.key) || leads_to(complaint.key, path);
+      return is_key_or_part_of(path, complaint.key) || is_key_or_part_of(complaint.key, path);
     });
     if (complaint.line == 0) complaint.file = of_vary ? "--vary" : "--set";
     found_[complaint].push_back(member);
@@ -127,9 +127,9 @@ void Sweep::add_complaints(std::size_t member, const Reading& reading, const std
 }
 
 void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
-  const MemberNames names(*reading.startless, observables_of(*reading.startless).names);
+  const MemberNames names(*reading.scenario_without_start, observables_of(*reading.scenario_without_start).names);
   const std::lock_guard lock(mutex_);
-  take_as_common(member, *reading.startless);
+  keep_shared_settings(member, *reading.scenario_without_start);
   names_.add(member, names, names.key());
   rows_[member].no_start = true;
   rows_[member].message = reading.no_start;
@@ -154,7 +154,7 @@ void Sweep::report(const std::map<Complaint, std::vector<std::size_t>>& found) {
 
 /// Members of one table are states of one problem. The other shared settings are taken from the first member with a
 /// start.
-void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
+void Sweep::keep_shared_settings(std::size_t member, const Scenario& scenario) {
   const bool has_start = !scenario.start_p.empty() && scenario.start_p.front() == scenario.start_p.front();
   const std::pair kind(scenario.problem->info.name, scenario.start_q.size());
   const auto [at, is_new] = first_of_kind_.try_emplace(kind, member);
@@ -217,7 +217,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   key += '\n' + name_key;
 
   const std::lock_guard lock(mutex_);
-  take_as_common(member, scenario);
+  keep_shared_settings(member, scenario);
   keep_notes(member, scenario);
   if (scenario.start_contents) {  // the order of reading must not matter
     const std::array<std::uint64_t, 2> one{member, *scenario.start_contents};

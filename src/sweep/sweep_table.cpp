@@ -53,7 +53,7 @@ void add_varied(const Sweep& sweep, Table& table) {
 
 void add_invariants(const Sweep& sweep, Table& table) {
   static const InvariantExcursion none{{}, {}, nothing};
-  for (const UnitedName& invariant : sweep.names().invariants()) {
+  for (const MergedName& invariant : sweep.names().invariants()) {
     const std::string group = "invariants/" + invariant.name + "/";
     const std::size_t size = sweep.names().size(invariant);
     std::vector<const InvariantExcursion*> seen;
@@ -106,7 +106,7 @@ void add_stops(const Sweep& sweep, Table& table) {
 }
 
 void add_observables(const Sweep& sweep, Table& table) {
-  for (const UnitedName& observable : sweep.names().observables()) {
+  for (const MergedName& observable : sweep.names().observables()) {
     Column column = empty_column("observables/" + observable.name, ValueType::number);
     for (std::size_t member = 0; member < sweep.members(); ++member) {
       const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
@@ -188,13 +188,13 @@ void add_digits(const Sweep& sweep, std::size_t n, Table& table) {
 std::vector<EventCount> events_of(const Sweep& sweep, std::size_t member) {
   const MemberRow& row = sweep.rows()[member];
   std::vector<EventCount> all;
-  for (const UnitedName& wall : sweep.names().walls()) {
+  for (const MergedName& wall : sweep.names().walls()) {
     EventCount& count = all.emplace_back(EventCount{wall.name});
     for (const std::size_t k : sweep.names().places(wall, member)) {
       if (k < row.walls.size()) count.count += row.walls[k].bounces;
     }
   }
-  for (const UnitedName& event : sweep.names().events()) {
+  for (const MergedName& event : sweep.names().events()) {
     const std::int64_t* const count = value_of(sweep, event, member, &MemberRow::events);
     all.push_back({"user:" + event.name, count == nullptr ? 0 : *count});
   }

@@ -267,7 +267,7 @@ double roundings_of(const Simulation& simulation) {
 }
 
 /// Returns the coordinates without a turn since their range last doubled, and the angles that have made a full turn.
-std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const std::vector<Swings>& swings,
+std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const std::vector<OscillationCounter>& swings,
                                              std::int64_t steps_taken) {
   const std::vector<std::string>& names = problem.info.coordinates;
   const std::vector<std::string>& angles = problem.info.angles;
@@ -283,7 +283,7 @@ std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const 
 /// Finds the slowest oscillation. An angle that has made a full turn does not oscillate. A momentum is only used if its
 /// coordinate has not turned: on an eccentric orbit the momentum peaks at each pericentre, too briefly for the samples,
 /// and the coordinate has the same period.
-void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings, std::int64_t steps_taken,
+void find_periods(const ProblemEntry& problem, const std::vector<OscillationCounter>& swings, std::int64_t steps_taken,
                   EnergySeries& series) {
   const std::vector<std::string>& names = problem.info.coordinates;
   const std::vector<std::string>& angles = problem.info.angles;
@@ -318,13 +318,13 @@ void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings
 
 /// Returns whether the energy of a method has no drift: the method is symplectic, takes equal steps, and solves its
 /// equations to rounding. Cut-off forces of many particles may cause a drift nevertheless.
-bool keeps_an_energy(const Request& request, const ProblemEntry& problem, const MethodInfo& method) {
+bool has_no_energy_drift(const Request& request, const ProblemEntry& problem, const MethodInfo& method) {
   return method.symplectic && takes_equal_steps(method) && !method.carries_copy && !has_hard_walls(request) &&
          request.method.options.count(tolerance_option) == 0 && !problem.particles;
 }
 
 /// Returns whether the run has bounced off walls at which the energy makes a random walk (docs/design/walls.md).
-bool walks_at_walls(const Request& request, const Simulation& simulation) {
+bool has_random_walk_at_walls(const Request& request, const Simulation& simulation) {
   const auto& walls = request.walls;
   if (!walls || !(walls->rule == WallRule::event || walls->rule == WallRule::reject)) return false;
   const std::vector<WallCount> counts = simulation.wall_counts();
@@ -363,8 +363,8 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
     series.rounding = std::max(epsilon * rounded, energy_of_units(request, problem, ends));
   }
   series.roundings = roundings_of(simulation);
-  series.symplectic = keeps_an_energy(request, problem, simulation.method());
-  series.bounces = walks_at_walls(request, simulation);
+  series.symplectic = has_no_energy_drift(request, problem, simulation.method());
+  series.bounces = has_random_walk_at_walls(request, simulation);
   series.copies = simulation.method().carries_copy;
   find_periods(problem, state.swings, simulation.step(), series);
   return {series, unit};
@@ -373,7 +373,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
 }  // namespace
 
 RunCertificate certify(const Request& request, const ProblemEntry& problem, std::unique_ptr<Simulation>& of_the_run,
-                       const EnergyBlocks& blocks, std::int64_t steps_taken, const GoOn& go_on) {
+                       const EnergyBlocks& blocks, std::int64_t steps_taken, const ContinueQuestion& go_on) {
   const Simulation& simulation = *of_the_run;
   RunCertificate found;
   found.typically_exchanged = blocks.state().exchange.typical();

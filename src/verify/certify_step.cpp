@@ -17,18 +17,19 @@
 #include "hamflow/detail/verify/drift.hpp"
 #include "hamflow/run/walls.hpp"
 #include "rounding.hpp"
-#include "step_surroundings.hpp"
+#include "step_test_states.hpp"
 
 namespace hamflow {
 
 namespace {
 
 // rounding of a scaled state: an iteration that ends at 1e-13 counts as exact
-constexpr double nothing_but_rounding = 0x1p-40;
+constexpr double rounding_of_scaled_state = 0x1p-40;
 constexpr double exact_to_rounding = 0x1p-44;  // 256 roundings; an adaptive method with a small tolerance makes more
-constexpr double told_from_rounding = 1024;    // an error of the method has to be this many times the rounding error
+constexpr double least_error_over_rounding =
+    1024;  // an error of the method has to be this many times the rounding error
 // a defect above this fraction of the error belongs to the method, not to its solver
-constexpr double part_of_the_error = 0x1p-10;
+constexpr double largest_solver_share = 0x1p-10;
 constexpr double most_error = 0.3;  // error of a scaled state; a step with a larger error shows nothing
 constexpr double smooth = 0.02;     // an error with more noise comes from rounding or from a solver
 constexpr const char* energy_name = "energy";
@@ -40,16 +41,16 @@ struct Derivative {
 };
 
 /// The defect of a property for one step size, with the error of the step and the error that rounding explains.
-struct Vote {
+struct StepDefect {
   double h = 0;
   double defect = 0;
   double rounding = 0;
   double error = 0;
   double noise = 0;  // the part of the error that is not a smooth function of h
   bool is_smooth() const { return noise <= smooth; }
-  bool is_told() const { return is_smooth() && error >= told_from_rounding * rounding; }
+  bool is_told() const { return is_smooth() && error >= least_error_over_rounding * rounding; }
   bool is_kept() const { return defect <= 4 * rounding; }
-  bool is_broken() const { return defect > 32 * rounding && defect > part_of_the_error * error; }
+  bool is_violated() const { return defect > 32 * rounding && defect > largest_solver_share * error; }
 };
 
 /// The conclusion from the votes of all step sizes.
@@ -58,16 +59,18 @@ struct PropertyVerdict {
   std::string reason;
 };
 /// Explains why too few votes separate the error of the method from rounding.
-std::string why_untold(const std::vector<Vote>& votes) {
+std::string why_undecided(const std::vector<StepDefect>& votes) {
   if (votes.empty()) return fmt::format("no step has an error below {} of the size of the state", most_error);
-  const Vote& last = votes.back();
-  const auto is_small = [](const Vote& vote) { return vote.error < told_from_rounding * nothing_but_rounding; };
+  const StepDefect& last = votes.back();
+  const auto is_small = [](const StepDefect& vote) {
+    return vote.error < least_error_over_rounding * rounding_of_scaled_state;
+  };
   if (std::all_of(votes.begin(), votes.end(), is_small)) {
     return fmt::format(
         "the error of the step, {:.1e} with h = {:.3g}, is less than {:.0f} times the {:.1e} that rounding explains",
-        last.error, last.h, told_from_rounding, nothing_but_rounding);
+        last.error, last.h, least_error_over_rounding, rounding_of_scaled_state);
   }
-  for (const Vote& vote : votes) {
+  for (const StepDefect& vote : votes) {
     if (vote.is_smooth() || is_small(vote)) continue;
     return fmt::format(
         "the error is not a smooth function of h: with h = {:.3g} the error of the step is {:.1e}, and {:.0f} % of it "
@@ -75,7 +78,7 @@ std::string why_untold(const std::vector<Vote>& votes) {
         "noise",
         vote.h, vote.error, 100 * std::min(vote.noise, 1.0));
   }
-  const auto told = std::count_if(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_told(); });
+  const auto told = std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_told(); });
   if (told == 0) {
     return fmt::format(
         "the step is not a smooth function of q and p: its derivatives by differences are uncertain by {:.1e} with "
@@ -88,12 +91,12 @@ std::string why_untold(const std::vector<Vote>& votes) {
       "sizes are needed",
       last.h, last.error);
 }
-PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& property) {
+PropertyVerdict verdict_of(const std::vector<StepDefect>& votes, const std::string& property) {
   int kept = 0;
   bool is_exact = !votes.empty();
-  const Vote* between = nullptr;
-  for (const Vote& vote : votes) {
-    if (vote.is_broken()) {
+  const StepDefect* between = nullptr;
+  for (const StepDefect& vote : votes) {
+    if (vote.is_violated()) {
       return {false, fmt::format("{}: a defect of {:.1e} with h = {:.3g}, where the error of the step is {:.1e}",
                                  property, vote.defect, vote.h, vote.error)};
     }
@@ -111,13 +114,13 @@ PropertyVerdict verdict_of(const std::vector<Vote>& votes, const std::string& pr
                         property, between->defect, between->h, 4 * between->rounding, between->error)};
   }
   if (kept >= 2 || is_exact) return {true, {}};
-  return {std::nullopt, property + " undecided: " + why_untold(votes)};
+  return {std::nullopt, property + " undecided: " + why_undecided(votes)};
 }
 
 class StepExamination {
  public:
   StepExamination(const ForeignStep& step, const StepProblem& problem, const StepClaims& claims)
-      : step_(step), problem_(problem), claims_(claims), around_(surroundings_of(problem)) {
+      : step_(step), problem_(problem), claims_(claims), around_(step_test_states(problem)) {
     flow_ = exact_flow();
     short_step_ = 2 * std::numbers::pi / 60 / around_.frequency;
     check_motion();
@@ -322,7 +325,7 @@ class StepExamination {
       largest_error = std::max(largest_error, point->error);
       noisy = point->noise > smooth ? noisy + 1 : 0;
       if (noisy == 0) points.push_back(*point);
-      if (point->error < nothing_but_rounding && points.size() >= enough) break;
+      if (point->error < rounding_of_scaled_state && points.size() >= enough) break;
     }
     fit_order(points, largest_error);
   }
@@ -387,10 +390,10 @@ class StepExamination {
     }
     std::vector<std::size_t> ends;
     for (std::size_t end = points.size(); end >= fewest && ends.size() < most_ends; --end) {
-      if (points[end - 1].error >= nothing_but_rounding) ends.push_back(end);
+      if (points[end - 1].error >= rounding_of_scaled_state) ends.push_back(end);
     }
     for (std::size_t end = fewest; end <= points.size(); ++end) {
-      if (points[end - 1].error < nothing_but_rounding) ends.push_back(end);
+      if (points[end - 1].error < rounding_of_scaled_state) ends.push_back(end);
     }
     PowerFit best;
     for (const std::size_t end : ends) {
@@ -471,13 +474,13 @@ class StepExamination {
     return sum;
   }
 
-  static Vote blank_vote(const OrderPoint& at) {
-    return {.h = at.h, .rounding = nothing_but_rounding, .error = at.error, .noise = at.noise};
+  static StepDefect blank_vote(const OrderPoint& at) {
+    return {.h = at.h, .rounding = rounding_of_scaled_state, .error = at.error, .noise = at.noise};
   }
 
-  std::optional<Vote> symplectic_vote(const OrderPoint& at) {
+  std::optional<StepDefect> symplectic_vote(const OrderPoint& at) {
     constexpr std::size_t most_states = 3;
-    Vote vote = blank_vote(at);
+    StepDefect vote = blank_vote(at);
     const auto along = directions();
     for (std::size_t k = 0; k < std::min(most_states, around_.states.size()); ++k) {
       std::vector<State<double>> images;
@@ -497,8 +500,8 @@ class StepExamination {
     return vote;
   }
 
-  std::optional<Vote> symmetric_vote(const OrderPoint& at) {
-    Vote vote = blank_vote(at);
+  std::optional<StepDefect> symmetric_vote(const OrderPoint& at) {
+    StepDefect vote = blank_vote(at);
     for (const auto& z : around_.states) {
       const auto there = tried(z, at.h);
       const auto back = there ? tried(*there, -at.h) : std::nullopt;
@@ -562,8 +565,8 @@ class StepExamination {
     return sizes;
   }
   /// Returns one vote for each of names(); nullopt if a step fails.
-  std::optional<std::vector<Vote>> invariant_votes(const OrderPoint& at) {
-    std::vector<Vote> votes(names().size(), blank_vote(at));
+  std::optional<std::vector<StepDefect>> invariant_votes(const OrderPoint& at) {
+    std::vector<StepDefect> votes(names().size(), blank_vote(at));
     for (std::size_t k = 0; k < around_.states.size(); ++k) {
       const State<double>& z = around_.states[k];
       const auto end = tried(z, at.h);
@@ -590,14 +593,14 @@ class StepExamination {
       return error && *error < most_error;
     };
     for (int k = 0; k < 6 && !is_sane(h); ++k) h /= 2;
-    std::vector<Vote> symplectic;
-    std::vector<Vote> symmetric;
-    std::vector<std::vector<Vote>> kept(names().size());
-    const auto is_done = [](const std::vector<Vote>& votes) {
-      return std::any_of(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_broken(); }) ||
-             std::count_if(votes.begin(), votes.end(), [](const Vote& vote) { return vote.is_told(); }) >= 2;
+    std::vector<StepDefect> symplectic;
+    std::vector<StepDefect> symmetric;
+    std::vector<std::vector<StepDefect>> kept(names().size());
+    const auto is_done = [](const std::vector<StepDefect>& votes) {
+      return std::any_of(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_violated(); }) ||
+             std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_told(); }) >= 2;
     };
-    std::string no_way_back;
+    std::string no_reversed_step;
     for (int k = 0; k < 6; ++k, h *= 2) {
       const auto at = order_point(h);
       if (!at || !(at->error < most_error)) break;
@@ -607,10 +610,10 @@ class StepExamination {
         if (vote) add(symplectic, *vote);
         go_on = !is_done(symplectic);
       }
-      if (!is_done(symmetric) && no_way_back.empty()) {
+      if (!is_done(symmetric) && no_reversed_step.empty()) {
         const auto vote = symmetric_vote(*at);
         if (vote) add(symmetric, *vote);
-        if (!vote) no_way_back = failure_;
+        if (!vote) no_reversed_step = failure_;
         go_on = go_on || !is_done(symmetric);
       }
       if (const auto votes = invariant_votes(*at)) {
@@ -622,23 +625,23 @@ class StepExamination {
       }
       if (!go_on) break;
     }
-    const auto decide = [&](const std::vector<Vote>& votes, const std::string& property) {
+    const auto decide = [&](const std::vector<StepDefect>& votes, const std::string& property) {
       const PropertyVerdict verdict = verdict_of(votes, property);
       if (!verdict.reason.empty()) reasons_.push_back(verdict.reason);
       return verdict.holds;
     };
     found_.symplectic = decide(symplectic, "symplectic");
-    if (no_way_back.empty()) {
+    if (no_reversed_step.empty()) {
       found_.symmetric = decide(symmetric, "symmetric");
     } else {
-      reasons_.push_back("symmetric undecided: the step fails with a negative h: " + no_way_back);
+      reasons_.push_back("symmetric undecided: the step fails with a negative h: " + no_reversed_step);
     }
     const std::vector<std::string> all = names();
     for (std::size_t i = 0; i < all.size(); ++i) found_.preserves.emplace_back(all[i], decide(kept[i], all[i]));
   }
   /// Steps whose error is at rounding level are dropped, unless all steps are.
-  static void add(std::vector<Vote>& votes, const Vote& vote) {
-    if (vote.is_told()) std::erase_if(votes, [](const Vote& before) { return !before.is_told(); });
+  static void add(std::vector<StepDefect>& votes, const StepDefect& vote) {
+    if (vote.is_told()) std::erase_if(votes, [](const StepDefect& before) { return !before.is_told(); });
     votes.push_back(vote);
   }
 
@@ -703,7 +706,7 @@ class StepExamination {
   const ForeignStep& step_;
   const StepProblem& problem_;
   const StepClaims& claims_;
-  Surroundings around_;
+  StepTestStates around_;
   std::unique_ptr<StepMap> flow_;
   double short_step_ = 0;  // a sixtieth of the shortest period
   State<double> first_;

@@ -225,7 +225,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
     clock.reference_spent(seconds_since(begin), reference.part());
     return go_on(nullptr, 0);
   };
-  const auto carry_out_if = [&](const auto& wanted) {
+  const auto run_jobs_if = [&](const auto& wanted) {
     for (ComparisonJob& job : jobs) {
       if (job.finished || !wanted(job)) continue;
       if (!go_on(&job, 0)) return false;
@@ -235,11 +235,11 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
   };
   // The shortest run of each method and a first piece of the reference are timed first, to estimate how long the rest
   // will take.
-  bool going = follow_reference() && carry_out_if([&](const ComparisonJob& job) { return job.work == 1; });
+  bool going = follow_reference() && run_jobs_if([&](const ComparisonJob& job) { return job.work == 1; });
   while (going && !reference.finished()) going = follow_reference();
   if (!reference.finished()) return found;
   found.reference = reference.solution();
-  if (going) (void)carry_out_if([](const ComparisonJob&) { return true; });
+  if (going) (void)run_jobs_if([](const ComparisonJob&) { return true; });
   for (ComparisonJob& job : jobs) {
     if (!job.finished) continue;
     judge(job, problem, found.reference);

@@ -52,13 +52,13 @@ std::string value_of(const MethodSpec& method, const OptionInfo& option) {
   return option.position > 0 ? same_spelling(option, option.default_value) : "";
 }
 
-bool stands_in(const std::string& name, const OptionInfo& option) {
+bool contains_option(const std::string& name, const OptionInfo& option) {
   const std::size_t at = name.find(option.name + "=");
   return at != std::string::npos && at > 0 && (name[at - 1] == '(' || name[at - 1] == ',');
 }
 
 /// @param alike all methods with the same canonical name, including this one
-std::string name_among(const MethodSpec& method, const std::vector<const MethodSpec*>& alike) {
+std::string unique_name(const MethodSpec& method, const std::vector<const MethodSpec*>& alike) {
   const std::string shared = describe(method).name;
   const std::size_t open = shared.find('(');
   std::string inside = open == std::string::npos ? "" : shared.substr(open + 1, shared.size() - open - 2);
@@ -69,7 +69,7 @@ std::string name_among(const MethodSpec& method, const std::vector<const MethodS
     const auto given = method.options.find(option.name);
     if (!differs || given == method.options.end()) continue;
     const std::string told = option.name + "=" + given->second;
-    if (stands_in(shared, option)) {  // the canonical name shows fewer digits than those in which they differ
+    if (contains_option(shared, option)) {  // the canonical name shows fewer digits than those in which they differ
       const std::size_t at = inside.find(option.name + "=");
       inside.replace(at, std::min(inside.find(',', at), inside.size()) - at, told);
     } else {
@@ -94,7 +94,7 @@ std::vector<std::string> comparison_names(const std::vector<MethodSpec>& methods
   std::map<std::string, std::vector<const MethodSpec*>> alike;
   for (const MethodSpec& method : methods) alike[describe(method).name].push_back(&method);
   std::vector<std::string> names;
-  for (const MethodSpec& method : methods) names.push_back(name_among(method, alike.at(describe(method).name)));
+  for (const MethodSpec& method : methods) names.push_back(unique_name(method, alike.at(describe(method).name)));
   return names;
 }
 

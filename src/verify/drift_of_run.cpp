@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "drift_class.hpp"
-#include "hamflow/detail/verify/swings.hpp"
+#include "hamflow/detail/verify/oscillation_counter.hpp"
 
 namespace hamflow {
 
@@ -191,7 +191,7 @@ Trend trend(const std::vector<double>& x) {
 std::optional<double> periods_of(const std::vector<double>& x, double correlation) {
   constexpr double resolved = 0.4;
   if (correlation < resolved) return std::nullopt;
-  Swings swings;
+  OscillationCounter swings;
   const std::vector<double> rank = ranks(x);
   for (std::size_t i = 0; i < x.size(); ++i) swings.look(static_cast<std::int64_t>(i), rank[i]);
   const auto seen = swings.seen(static_cast<std::int64_t>(x.size()) - 1);
@@ -224,14 +224,14 @@ constexpr double white = 0.25;      // correlation of a random walk's increments
 double trend_of_walks(const Trend& t) { return t.size / std::sqrt(std::max(1 - t.roughness, 0.15)); }
 
 /// Returns whether all deviations in the second half of the run are larger than half of the largest deviation.
-bool stays_away(const std::vector<double>& deviations, double largest) {
+bool stays_far_from_start(const std::vector<double>& deviations, double largest) {
   return std::all_of(deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2), deviations.end(),
                      [&](double x) { return std::abs(x) > largest / 2; });
 }
 
 /// Returns whether both halves of the run have a trend in the same direction. A single close encounter only leaves a
 /// jump in one half.
-bool goes_on_throughout(const std::vector<double>& x) {
+bool has_trend_in_both_halves(const std::vector<double>& x) {
   constexpr double least = 1.0 / 8;  // fraction of the overall slope, because a drift may slow down
   const auto slope = [&](std::size_t begin, std::size_t end) {
     std::vector<double> time(end - begin);
@@ -247,7 +247,7 @@ bool goes_on_throughout(const std::vector<double>& x) {
 
 /// Returns whether a trend cannot last, because the method is symplectic: it is too large for roundings to the same
 /// side in every operation, and too small for a step size at which the method breaks down.
-bool must_turn_back(const EnergySeries& series, double largest) {
+bool contradicts_symplecticity(const EnergySeries& series, double largest) {
   constexpr double resolved = 1.0 / 16;
   return series.symplectic && largest > 16 * series.rounding * (1 + series.roundings) &&
          largest < resolved * series.scale;
@@ -269,24 +269,24 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   const double e = found.growth_exponent;
   const char* const steadily = found.mean_increment < 0 ? "the energy falls steadily" : "the energy rises steadily";
   const bool rejected = (t_rejects || sign_rejects) && t.size >= clear_trend && t.rank >= clear_rank;
-  const bool stands_out = t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks;
-  if ((rejected || stands_out) && must_turn_back(series, largest)) {
+  const bool is_clear_trend = t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks;
+  if ((rejected || is_clear_trend) && contradicts_symplecticity(series, largest)) {
     return undecided(
         "the energy changes in one direction over the run, but the method is symplectic, so it may be the beginning of "
         "a "
         "slow oscillation");
   }
-  if ((rejected || stands_out) && !goes_on_throughout(series.deviations)) {
+  if ((rejected || is_clear_trend) && !has_trend_in_both_halves(series.deviations)) {
     return undecided("there is a trend, but in one half of the run the energy does not change");
   }
   if (rejected) {
     return {DriftClass::linear, t_rejects ? steadily : "nearly all increments have one sign"};
   }
-  if (stands_out) {
+  if (is_clear_trend) {
     return {DriftClass::linear,
             fmt::format("a trend of {:.0f} standard deviations of the residuals, more than a random walk has", t.size)};
   }
-  if (sign_rejects && series.outgrown && stays_away(series.deviations, largest)) {
+  if (sign_rejects && series.outgrown && stays_far_from_start(series.deviations, largest)) {
     return {DriftClass::linear, "the energy left its initial value permanently, and the range of the motion grew"};
   }
   if (t_rejects) {

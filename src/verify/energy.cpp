@@ -46,7 +46,7 @@ double largest_error(const std::vector<double>& energies, std::size_t expected) 
 }
 
 /// Counts runs with a given number of blocks, and those that ended early.
-struct Ended {
+struct CompletedRuns {
   int runs = 0;
   int early = 0;
   std::size_t first = 0;  // number of blocks of the shortest run
@@ -88,11 +88,11 @@ double short_level(const StepMap& map, const Region& region, double h) {
 /// of high order that does not claim to conserve the energy, the defect may be below rounding at that step size. Then
 /// the first of twice, four times, .. 16 times that step size (a third of a period) is taken at which a defect shows.
 /// With larger steps, Newton's iteration may find roots from which orbits escape.
-double telling_step(const StepMap& map, const Region& region, double unit) {
+double energy_test_step(const StepMap& map, const Region& region, double unit) {
   const MethodInfo claims = map.claims();
   if (claims.explicit_step || claims.energy_conserving != Conservation::no) return region.step;
   for (int k = 0; k <= 4; ++k) {
-    leave_if_stopped();
+    throw_if_stopped();
     const double h = std::ldexp(region.step, k);
     const double level = short_level(map, region, h) / unit;
     if (!(level < 1)) break;  // this step is too large
@@ -107,7 +107,7 @@ double step_exponent(const StepMap& map, const Region& region, double telling, d
   std::vector<double> log_step;
   std::vector<double> log_level;
   for (int k = 2; k >= -3; --k) {
-    leave_if_stopped();
+    throw_if_stopped();
     const double h = std::ldexp(telling, k);
     const double level = short_level(map, region, h) / unit;
     if (!(level < 1)) continue;  // this step is too large
@@ -141,12 +141,12 @@ std::vector<double> watched(const StepMap& map, const State<double>& z, double h
 EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   EnergyMeasurement found;
   const double unit = scale(map, region);
-  const double h = telling_step(map, region, unit);
+  const double h = energy_test_step(map, region, unit);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::vector<double>> energies;
-  Ended ended;
+  CompletedRuns ended;
   for (std::uint64_t k = 0; k < starts; ++k) {
-    leave_if_stopped();
+    throw_if_stopped();
     energies.push_back(watched(map, random_state(region, k), h));
     ended.look(energies.back(), coarse_blocks + 1);
     found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
@@ -162,9 +162,9 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   if (leaves && !found.drift.drift) found.drift = {0, std::numeric_limits<double>::infinity(), DriftClass::linear};
 
   const double fine_step = region.step / fine_factor;
-  Ended fine_ended;
+  CompletedRuns fine_ended;
   for (std::uint64_t k = 0; k < starts / 4; ++k) {  // a few starts are enough for a level
-    leave_if_stopped();
+    throw_if_stopped();
     const auto fine = map.energies(random_state(region, k), fine_step, fine_blocks, fine_block_steps);
     fine_ended.look(fine, fine_blocks + 1);
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);

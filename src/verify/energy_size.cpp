@@ -6,8 +6,8 @@
 
 namespace hamflow {
 
-Virial virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
-              const std::vector<double>& p) {
+VirialTerms virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+                   const std::vector<double>& p) {
   constexpr double part = 0x1p-20;
   const auto slope = [&](double of_q, double of_p) {
     const auto energy = [&](double sign) {
@@ -39,7 +39,7 @@ RunEnds ends_of(const Request& request, const Simulation& simulation) {
 double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale) {
   if (ends.start.q.empty()) return scale;
   const Texts all = complete(problem.info, request.parameters);
-  const Virial start = virial(problem, all, ends.start.q, ends.start.p);
+  const VirialTerms start = virial(problem, all, ends.start.q, ends.start.p);
   const double size = (start.of_q + start.of_p) / virial_per_size;
   return size > scale && std::isfinite(size) ? size : scale;
 }
@@ -113,7 +113,7 @@ double energy_of_units(const Request& request, const ProblemEntry& problem, cons
   };
   double moved = 0;
   for (const Frame* frame : {&ends.start, &ends.end}) {
-    const Virial v = virial(problem, all, frame->q, frame->p);
+    const VirialTerms v = virial(problem, all, frame->q, frame->p);
     const double here = per(v.of_q, frame->q) * request.position_unit + per(v.of_p, frame->p) * request.momentum_unit;
     if (here > moved && std::isfinite(here)) moved = here;
   }

@@ -10,7 +10,7 @@
 
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/detail/verify/swings.hpp"
+#include "hamflow/detail/verify/oscillation_counter.hpp"
 #include "rounding.hpp"
 
 namespace hamflow {
@@ -106,7 +106,7 @@ std::optional<double> periods_of_rate(const std::vector<double>& t, const std::v
   std::vector<double> rate;
   for (std::size_t i = 0; i + 1 < x.size(); ++i) rate.push_back((x[i + 1] - x[i]) / (t[i + 1] - t[i]));
   const std::vector<double> rank = ranks_of(rate);
-  Swings swings;
+  OscillationCounter swings;
   for (std::size_t i = 0; i < rank.size(); ++i) swings.look(static_cast<std::int64_t>(i), rank[i]);
   const auto seen = swings.seen(static_cast<std::int64_t>(rank.size()) - 1);
   return seen ? std::optional<double>(seen->periods) : std::nullopt;
@@ -157,7 +157,7 @@ bool is_straight(const std::vector<double>& t, const std::vector<double>& x) {
 }
 
 /// Returns whether E is a straight line, or log |E| for an energy that decays or grows exponentially.
-bool goes_straight(const std::vector<double>& t, const std::vector<double>& energy) {
+bool is_straight_or_exponential(const std::vector<double>& t, const std::vector<double>& energy) {
   if (is_straight(t, energy)) return true;
   std::vector<double> logarithms;
   for (const double e : energy) {
@@ -224,7 +224,7 @@ std::optional<double> unsteady_rate(const std::vector<double>& t, const std::vec
 }
 
 /// Returns whether the energy changes in one direction throughout a quarter of the log.
-bool moves_slowly(const std::vector<double>& t, const std::vector<double>& x) {
+bool has_trend_in_a_quarter(const std::vector<double>& t, const std::vector<double>& x) {
   constexpr double errors = 4;
   const std::vector<Line> all = quarters(t, x);
   return std::any_of(all.begin(), all.end(),
@@ -358,7 +358,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
                       *rate));
     }
   } else if (found.drift.drift == DriftClass::bounded) {
-    if (moves_slowly(times, series.deviations)) {
+    if (has_trend_in_a_quarter(times, series.deviations)) {
       leave_undecided(
           found.drift,
           "no drift is seen, but the energy changes in one direction throughout a quarter of the log; such a slow "
@@ -367,7 +367,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
                !grows.empty()) {
       leave_undecided(found.drift, grows);
     }
-  } else if (!found.drift.drift && goes_straight(times, energies)) {
+  } else if (!found.drift.drift && is_straight_or_exponential(times, energies)) {
     found.drift.drift = DriftClass::linear;
     found.drift.reason = "the energy changes at a constant rate, to a ten-thousandth of its change";
   } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&

@@ -212,23 +212,23 @@ StepMapSource source_of(std::shared_ptr<const StepMap> map) {
 }
 }  // namespace
 
-TangentWatch::TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
-    : TangentWatch(source_of(std::move(map)), h, last_step) {}
+TangentObserver::TangentObserver(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
+    : TangentObserver(source_of(std::move(map)), h, last_step) {}
 
-TangentWatch::TangentWatch(StepMapSource source, double h, std::int64_t last_step)
+TangentObserver::TangentObserver(StepMapSource source, double h, std::int64_t last_step)
     : source_(std::move(source)), h_(h), last_step_(last_step) {}
 
-std::int64_t TangentWatch::next_due(std::int64_t step) const {
+std::int64_t TangentObserver::next_due(std::int64_t step) const {
   if (!followed_ || step > last_step_) return never;
   return std::max(step, std::min(due_, last_step_));
 }
 
-Verdict TangentWatch::observe(const Frame& frame) {
+Verdict TangentObserver::observe(const Frame& frame) {
   std::int64_t next = 1;
-  if (at_ >= 0 && frame.step < due_ && frame.step != carried_to_) keep_before_the_end();
+  if (at_ >= 0 && frame.step < due_ && frame.step != advanced_to_) keep_state_before_end();
   if (at_ >= 0 && frame.step > at_) {
     const std::int64_t steps = frame.step - at_;
-    followed_ = frame.step == carried_to_ || advance(steps);
+    followed_ = frame.step == advanced_to_ || advance(steps);
     next = followed_ ? taken(steps) : 0;
     followed_ = next > 0;
   }
@@ -240,27 +240,27 @@ Verdict TangentWatch::observe(const Frame& frame) {
 }
 
 /// Keeps the state before the last observation, because a longer run would not observe at the end of this one.
-void TangentWatch::keep_before_the_end() {
+void TangentObserver::keep_state_before_end() {
   Writer ar;
   fields(ar);
   before_the_end_ = ar.take();
 }
 
-bool TangentWatch::advance(std::int64_t steps) {
+bool TangentObserver::advance(std::int64_t steps) {
   if (map_ == nullptr) map_ = source_.map();
   if (map_ == nullptr) throw Error("hamflow: there is no map of one step to differentiate");
   return map_->advance_with_tangents(z_, tangents(), h_, steps);
 }
 
-std::optional<TangentsUnderWay> TangentWatch::under_way() {
+std::optional<TangentsToAdvance> TangentObserver::tangents_to_advance() {
   const std::int64_t next = next_due(at_ + 1);
-  if (at_ < 0 || next == never || carried_to_ == next) return std::nullopt;
-  if (next < due_) keep_before_the_end();
-  return TangentsUnderWay{&z_, &tangents(), next - at_};
+  if (at_ < 0 || next == never || advanced_to_ == next) return std::nullopt;
+  if (next < due_) keep_state_before_end();
+  return TangentsToAdvance{&z_, &tangents(), next - at_};
 }
 
-void TangentWatch::archive(Writer& ar) {
-  if (before_the_end_.empty() && carried_to_ > at_)
+void TangentObserver::archive(Writer& ar) {
+  if (before_the_end_.empty() && advanced_to_ > at_)
     throw Error("found tangent vectors that were carried ahead of a run");
   if (before_the_end_.empty()) {
     fields(ar);
@@ -269,11 +269,11 @@ void TangentWatch::archive(Writer& ar) {
   }
 }
 
-void TangentWatch::archive(Reader& ar) {
+void TangentObserver::archive(Reader& ar) {
   const std::size_t count = tangents().size();
   fields(ar);
   before_the_end_.clear();
-  carried_to_ = -1;
+  advanced_to_ = -1;
   const auto is_whole = [&](const State<double>& v) { return v.size() == 2 * dimension(); };
   const bool begun = at_ >= 0;
   if (tangents().size() != count || !std::all_of(tangents().begin(), tangents().end(), is_whole) ||
@@ -282,16 +282,17 @@ void TangentWatch::archive(Reader& ar) {
   }
 }
 
-LyapunovWatch::LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count)
-    : LyapunovWatch(source_of(std::move(map)), h, last_step, count) {}
+LyapunovObserver::LyapunovObserver(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step,
+                                   std::size_t count)
+    : LyapunovObserver(source_of(std::move(map)), h, last_step, count) {}
 
-LyapunovWatch::LyapunovWatch(StepMapSource source, double h, std::int64_t last_step, std::size_t count)
-    : TangentWatch(std::move(source), h, last_step),
+LyapunovObserver::LyapunovObserver(StepMapSource source, double h, std::int64_t last_step, std::size_t count)
+    : TangentObserver(std::move(source), h, last_step),
       frame_(dimension(), count > 0 ? count : 2 * dimension()),
       sums_(frame_.vectors().size()),
       logs_(frame_.vectors().size()) {}
 
-std::int64_t LyapunovWatch::taken(std::int64_t steps) {
+std::int64_t LyapunovObserver::taken(std::int64_t steps) {
   if (!frame_.orthonormalise(logs_)) return 0;
   sums_.add(logs_, steps);
   return block_ = steps_between(block_, logs_);

@@ -9,7 +9,7 @@ namespace hamflow {
 struct MeasuringStopped {};
 
 /// Call this between the runs of a measurement, because a single run does not take long.
-inline void leave_if_stopped() {
+inline void throw_if_stopped() {
   if (StopQuestion::stop_requested()) throw MeasuringStopped();
 }
 

@@ -13,7 +13,7 @@ namespace hamflow {
 
 namespace {
 constexpr std::int64_t map_steps = 20000;  // about 300 periods
-constexpr std::int64_t return_steps = 1000;
+constexpr std::int64_t reversal_steps = 1000;
 
 Request request_on(const Region& region, const MethodSpec& method, const State<double>& z) {
   Request request;
@@ -40,7 +40,7 @@ double largest_coordinate(const Frame& frame) {
 }
 
 /// Explains why a run shows nothing about conservation; empty if it does show something.
-std::string nothing_shown(const Simulation& simulation, Outcome outcome, double size_at_start, double size) {
+std::string why_nothing_concluded(const Simulation& simulation, Outcome outcome, double size_at_start, double size) {
   if (outcome == Outcome::non_finite) {
     return fmt::format("the state was no longer finite after step {} of {}", simulation.step(), map_steps);
   }
@@ -59,7 +59,7 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
   const auto problem_entry = find_problem(region);
   const ProblemEntry& problem = *problem_entry;
   if (!problem.accepts(method) || problem.info.invariants.empty()) return;
-  leave_if_stopped();
+  throw_if_stopped();
   const Request request = request_on(region, method, random_state(region, 0));
   const auto simulation = make_simulation(request);
   Frame start;
@@ -69,15 +69,15 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
   const Outcome outcome = run(*simulation, map_steps, observers);
   const std::vector<double>& sizes = blocks.state().magnitudes;
   const std::string nothing =
-      nothing_shown(*simulation, outcome, largest_coordinate(start), std::max(sizes[0], sizes[1]));
+      why_nothing_concluded(*simulation, outcome, largest_coordinate(start), std::max(sizes[0], sizes[1]));
   const std::vector<MomentumMap> maps = momentum_maps(*simulation, problem, sizes, request);
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const MomentumMap& map = maps[i];
     if (map.rounding) {
-      const bool in_doubt = nothing.empty() && !map.conserved();
+      const bool is_undecided = nothing.empty() && !map.conserved();
       found.momentum_maps.push_back({region.problem, map.name, simulation->step(), map.max_error, map.relative,
                                      *map.rounding, nothing.empty() ? map.conserved() : std::nullopt,
-                                     in_doubt ? "the error may come from rounding or from the method" : nothing});
+                                     is_undecided ? "the error may come from rounding or from the method" : nothing});
     } else if (simulation->step() == 0 && problem.info.invariants[i].terms != Terms::other) {
       constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       found.momentum_maps.push_back({region.problem, map.name, 0, unknown, unknown, unknown, std::nullopt, nothing});
@@ -107,7 +107,7 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
   }
   for (const Region& region : regions) {
     const ReversalEvidence back = reversal_evidence(request_on(region, method, random_state(region, 0)),
-                                                    *find_problem(region), return_steps, std::nullopt);
+                                                    *find_problem(region), reversal_steps, std::nullopt);
     found.reversals.push_back({region.problem, back.steps, back.relative.value_or(0.0), back.relative.has_value(),
                                std::string(name(back.proves)), back.reason});
   }

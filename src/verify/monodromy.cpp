@@ -70,12 +70,12 @@ std::vector<std::vector<double>> derivative_of_steps(const StepMap& map, State<d
   return transposed(columns);
 }
 
-MonodromyWatch::MonodromyWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
-    : TangentWatch(std::move(map), h, last_step), columns_(unit_vectors(2 * dimension())) {}
+MonodromyObserver::MonodromyObserver(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
+    : TangentObserver(std::move(map), h, last_step), columns_(unit_vectors(2 * dimension())) {}
 
-MonodromyWatch::MonodromyWatch(StepMapSource source, double h, std::int64_t last_step)
-    : TangentWatch(std::move(source), h, last_step), columns_(unit_vectors(2 * dimension())) {}
+MonodromyObserver::MonodromyObserver(StepMapSource source, double h, std::int64_t last_step)
+    : TangentObserver(std::move(source), h, last_step), columns_(unit_vectors(2 * dimension())) {}
 
-std::vector<std::vector<double>> MonodromyWatch::rows() const { return transposed(columns_); }
+std::vector<std::vector<double>> MonodromyObserver::rows() const { return transposed(columns_); }
 
 }  // namespace hamflow

@@ -23,10 +23,10 @@ SymplecticEigenvalues symplectic_eigenvalues(const std::vector<std::vector<doubl
 std::vector<std::vector<double>> derivative_of_steps(const StepMap& map, State<double> z, double h, std::int64_t steps);
 
 /// Carries the derivative of all steps along a run. It costs as much as 2n Lyapunov exponents.
-class MonodromyWatch final : public TangentWatch {
+class MonodromyObserver final : public TangentObserver {
  public:
-  MonodromyWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
-  MonodromyWatch(StepMapSource source, double h, std::int64_t last_step);
+  MonodromyObserver(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
+  MonodromyObserver(StepMapSource source, double h, std::int64_t last_step);
   std::vector<std::vector<double>> rows() const;
 
  protected:

@@ -74,7 +74,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   int failed = 0;
   std::int64_t steps = static_cast<std::int64_t>(std::ceil(region.time / (4 * region.step)));
   for (int k = 0; k <= halvings && !masked; ++k, steps *= 2) {
-    leave_if_stopped();
+    throw_if_stopped();
     State<Long> z = start;
     const Long h = time / static_cast<Long>(steps);
     ++tried;

@@ -17,23 +17,25 @@ namespace hamflow {
 
 namespace {
 
-constexpr double moved = 0x1p-36;            // initial distance relative to q and p: 2^16 roundings, but still small
-constexpr double moved_less = 0x1p-40;       // smaller initial distance, to test whether distances grow in proportion
-constexpr double in_proportion = 4;          // allowed factor: a smooth motion has 1, and roundings add to it
-constexpr double parted = 1e-3;              // relative distance that counts as large
-constexpr double beyond = 16;                // a distance below this many rounding bounds does not refute a method
-constexpr std::int64_t most_waypoints = 64;  // number of states at which two motions are compared
+constexpr double moved = 0x1p-36;  // initial distance relative to q and p: 2^16 roundings, but still small
+constexpr double smaller_displacement =
+    0x1p-40;                              // smaller initial distance, to test whether distances grow in proportion
+constexpr double most_disproportion = 4;  // allowed factor: a smooth motion has 1, and roundings add to it
+constexpr double parted = 1e-3;           // relative distance that counts as large
+constexpr double beyond = 16;             // a distance below this many rounding bounds does not refute a method
+constexpr std::int64_t most_stored_states = 64;  // number of states at which two motions are compared
 // coordinates in all stored states: 128 MB, together with the momenta
-constexpr std::int64_t most_kept = std::int64_t{1} << 23;
+constexpr std::int64_t most_stored_coordinates = std::int64_t{1} << 23;
 
-/// Stores the states of a motion at up to `most_waypoints` steps. For very large systems it stores fewer states, but at
-/// least four.
-class Waypoints final : public Observer {
+/// Stores the states of a motion at up to `most_stored_states` steps. For very large systems it stores fewer states,
+/// but at least four.
+class StoredStates final : public Observer {
  public:
-  Waypoints(std::int64_t steps, std::size_t size)
+  StoredStates(std::int64_t steps, std::size_t size)
       : apart_(std::max<std::int64_t>(
-            1, steps / std::clamp<std::int64_t>(most_kept / static_cast<std::int64_t>(std::max<std::size_t>(1, size)),
-                                                4, most_waypoints))) {}
+            1, steps / std::clamp<std::int64_t>(
+                           most_stored_coordinates / static_cast<std::int64_t>(std::max<std::size_t>(1, size)), 4,
+                           most_stored_states))) {}
   std::int64_t apart() const { return apart_; }
   std::int64_t next_due(std::int64_t step) const override { return (step + apart_ - 1) / apart_ * apart_; }
   Verdict observe(const Frame& frame) override {
@@ -60,7 +62,7 @@ struct Motion {
   const Request& request;
   const ProblemEntry& problem;
   const Reversal& reversal;
-  const Waypoints& way;
+  const StoredStates& way;
   UnitGroups groups;
   GroupSizes sizes = group_sizes(groups, reversal.sizes);
   std::size_t count() const { return sizes.size.size(); }  // number of groups, including groups of momenta
@@ -159,13 +161,13 @@ std::vector<double> moved_by(const std::vector<double>& x, const std::vector<dou
   return out;
 }
 
-std::function<bool(std::int64_t)> pulse_of(const GoOn& go_on) {
+std::function<bool(std::int64_t)> pulse_of(const ContinueQuestion& go_on) {
   if (!go_on) return {};
   return [&go_on](std::int64_t) { return go_on(); };
 }
 
 /// Makes a second simulation. If no further threads can be started, it uses one thread, which gives the same bits.
-std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
+std::unique_ptr<Simulation> second_simulation(const Request& request) {
   Request plain = request;
   plain.watch = false;
   try {
@@ -177,7 +179,7 @@ std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
 }
 
 /// Separation of two motions that start at a distance of `Move::size`, relative to the sizes of the groups.
-struct Parting {
+struct Separation {
   bool measured = false;
   double root_mean_square = 0;  // along the motion, divided by Move::size
   double furthest = 0;
@@ -194,7 +196,7 @@ std::vector<std::string> all_texts(const std::vector<double>& x) {
 /// Follows the motion that starts at (q, p) for a method that carries a second copy of the state. The copy starts from
 /// another displaced state. In a run both copies start equal, but rounding acts on each of them differently.
 void follow_with_copy(const Motion& motion, const std::vector<double>& q, const std::vector<double>& p,
-                      const Move& move, DistancesFrom& beside, const GoOn& go_on) {
+                      const Move& move, DistancesFrom& beside, const ContinueQuestion& go_on) {
   const Reversal& reversal = motion.reversal;
   const std::size_t n = q.size();
   Request request = motion.request;
@@ -218,7 +220,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
 }
 
 /// Measures the separation in double, because small differences grow equally in every arithmetic.
-Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) {
+Separation parting(const Motion& motion, const ContinueQuestion& go_on, const Move& move = {}) {
   const Reversal& reversal = motion.reversal;
   const StateSizes& sizes = motion.reversal.sizes;
   const bool on_lattice = motion.request.arithmetic == "lattice";
@@ -248,7 +250,7 @@ Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) 
 /// amplification g_j equals the growth of a small difference from the start to j, which is measured. Roundings of size
 /// u add up like a random walk, to u sqrt(2 a sum_j g_j^2) for a operations per step. The bound is four times this,
 /// more than six times the distances that reversible methods showed (tools/confusion_table.py).
-/// @param growth Parting::root_mean_square   @param bounds factor for the result
+/// @param growth Separation::root_mean_square   @param bounds factor for the result
 LongNumber explained_by_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   const Request& request = motion.request;
   const double factor = bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(motion.reversal.steps))) * growth;
@@ -297,18 +299,18 @@ bool force_may_jump(const Request& request, const ProblemEntry& problem) {
 /// Therefore, if a separation is not in proportion to the first displacement, it is compared with that for a larger
 /// displacement in the same direction, and the largest separation is used.
 /// @param apart separation for the first displacement; becomes the largest separation
-std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& go_on) {
-  const auto alike = [](const Parting& nearer, const Parting& wider) {
-    return nearer.root_mean_square <= in_proportion * wider.root_mean_square &&
-           wider.root_mean_square <= in_proportion * nearer.root_mean_square;
+std::string why_not_proportional(const Motion& motion, Separation& apart, const ContinueQuestion& go_on) {
+  const auto alike = [](const Separation& nearer, const Separation& wider) {
+    return nearer.root_mean_square <= most_disproportion * wider.root_mean_square &&
+           wider.root_mean_square <= most_disproportion * nearer.root_mean_square;
   };
   const char* const unmeasured = "but the amplification of rounding errors could not be measured";
   for (const double sign : {1.0, -1.0}) {
-    const Parting nearer = parting(motion, go_on, {sign * moved_less, 3, true});
+    const Separation nearer = parting(motion, go_on, {sign * smaller_displacement, 3, true});
     if (!nearer.measured) return unmeasured;
     if (alike(nearer, apart)) continue;
     if (motion.reversal.relative_distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;
-    const Parting wider = parting(motion, go_on, {sign * moved, 3, true});
+    const Separation wider = parting(motion, go_on, {sign * moved, 3, true});
     if (!wider.measured) return unmeasured;
     if (alike(nearer, wider)) {
       apart.root_mean_square = std::max(apart.root_mean_square, wider.root_mean_square);
@@ -321,14 +323,14 @@ std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& 
         "{:.1e}, those that start {:.1e} apart in the same direction to {:.1e}, which is not proportional; {}stiff "
         "steps "
         "with larger rounding errors can be the cause",
-        moved, wider.furthest, moved_less, nearer.furthest,
+        moved, wider.furthest, smaller_displacement, nearer.furthest,
         force_may_jump(motion.request, motion.problem) ? "a discontinuous force or " : "");
   }
   return {};
 }
 
 /// Returns the conclusion and its reason.
-std::pair<ReversalProof, std::string> judged(const Motion& motion, double actions, const GoOn& go_on) {
+std::pair<ReversalProof, std::string> judged(const Motion& motion, double actions, const ContinueQuestion& go_on) {
   const Reversal& reversal = motion.reversal;
   const MethodInfo method = describe(motion.request.method);
   const Frame* const states[] = {&reversal.start, &reversal.turn};
@@ -340,7 +342,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
     return {ReversalProof::nothing,
             "every bit returned, but " + method.name + " is not reversible; its defect is below rounding"};
   }
-  Parting apart = parting(motion, go_on);
+  Separation apart = parting(motion, go_on);
   if (!apart.measured) {
     return {ReversalProof::nothing, "the amplification of rounding errors could not be measured"};
   }
@@ -348,7 +350,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
     const GroupDistance& there = reversal.distances[group];
     return fmt::format("distance {} in {}", brief(there.distance), there.name);
   };
-  const auto parts_too_far = [&] {
+  const auto separation_too_large = [&] {
     const std::size_t g = apart.widest;
     return std::pair{
         ReversalProof::nothing,
@@ -356,8 +358,8 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
                     "of rounding is unknown",
                     off(g), apart.furthest / moved)};
   };
-  const auto has_parted = [&] { return apart.furthest > parted; };
-  if (has_parted()) return parts_too_far();
+  const auto separation_is_large = [&] { return apart.furthest > parted; };
+  if (separation_is_large()) return separation_too_large();
   if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
     return {
         ReversalProof::to_rounding,
@@ -369,9 +371,9 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   }
   // If the distance is below the bound without amplification, no further motion is needed.
   if (!within_rounding(motion, std::min(apart.root_mean_square, 1.0), actions)) {
-    const std::string unknown = out_of_proportion(motion, apart, go_on);
+    const std::string unknown = why_not_proportional(motion, apart, go_on);
     if (!unknown.empty()) return {ReversalProof::nothing, off(worst) + ", " + unknown};
-    if (has_parted()) return parts_too_far();
+    if (separation_is_large()) return separation_too_large();
   }
   const double growth = apart.root_mean_square;
   const LongNumber rounding = explained_by_rounding(motion, growth, actions);
@@ -400,8 +402,8 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
 }
 
 /// Returns the step of the first bounce; 0: no bounce within `steps`.
-std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn& go_on) {
-  const auto simulation = simulation_beside_the_run(request);
+std::int64_t first_bounce(const Request& request, std::int64_t steps, const ContinueQuestion& go_on) {
+  const auto simulation = second_simulation(request);
   std::int64_t first = 0;
   simulation->tell_bounces([&](const Bounce& bounce) {
     if (first == 0) first = bounce.step;
@@ -446,10 +448,10 @@ double steps_of_a_second(const Request& request, const ProblemEntry& problem, st
 bool depends_on_time(const ProblemEntry& problem) { return problem.structure && problem.structure->time; }
 
 ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
-                                   std::optional<double> period, const GoOn& asked) {
+                                   std::optional<double> period, const ContinueQuestion& asked) {
   ReversalEvidence found;
   bool stopped = false;
-  const GoOn go_on = [&] {
+  const ContinueQuestion go_on = [&] {
     stopped = stopped || (asked && !asked());
     return !stopped;
   };
@@ -460,7 +462,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   if (!go_on()) return stopped_evidence();
   const StopQuestion question(go_on);  // a step in many digits can take minutes
   const double at_least = std::min(period ? std::ceil(*period) : 1000.0, 1000.0);
-  auto simulation = simulation_beside_the_run(request);
+  auto simulation = second_simulation(request);
   Frame start;
   simulation->look(start);
   const std::size_t size = std::max<std::size_t>(1, start.q.size());
@@ -481,7 +483,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
   simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
-  Waypoints way(found.steps, start.q.size());
+  StoredStates way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
   Reversal reversal;
   const UnitGroups groups = unit_groups(problem, start.q.size());

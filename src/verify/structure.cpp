@@ -106,7 +106,7 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
   Defects symmetric;
   Defects reversible;
   for (std::uint64_t k = 0; k < states; ++k) {
-    leave_if_stopped();
+    throw_if_stopped();
     const State<double> start = random_state(region, k);
     const State<double> z = map.begun(start);
     const Rows m = map.jacobian(z, h);

@@ -83,12 +83,13 @@ class Verification::Impl {
     }
     measured_.resize(jobs_.size());
     const std::size_t most = std::min<std::size_t>(std::max(1u, processors()), jobs_.size());
-    at_work_ = most;
+    working_threads_ = most;
     try {
-      while (helpers_.size() < most) helpers_.emplace_back([this] { work([this] { return !stopped_; }); });
+      while (worker_threads_.size() < most)
+        worker_threads_.emplace_back([this] { work([this] { return !stopped_; }); });
     } catch (const std::system_error&) {  // those that were started do the work, or wait() does
       const std::lock_guard lock(mutex_);
-      at_work_ -= most - helpers_.size();
+      working_threads_ -= most - worker_threads_.size();
     }
   }
   ~Impl() { stopped_ = true; }
@@ -96,14 +97,14 @@ class Verification::Impl {
   Impl& operator=(const Impl&) = delete;
 
   bool wait(const std::function<bool()>& goes_on) {
-    if (helpers_.empty()) work([&] { return !stopped_ && !(stopped_ = !goes_on()); });
+    if (worker_threads_.empty()) work([&] { return !stopped_ && !(stopped_ = !goes_on()); });
     std::unique_lock lock(mutex_);
-    while (at_work_ > 0) {
+    while (working_threads_ > 0) {
       finished_.wait_for(lock, std::chrono::milliseconds(20));
       lock.unlock();
       const bool go_on = goes_on();
       lock.lock();
-      if (!go_on && at_work_ > 0) return false;
+      if (!go_on && working_threads_ > 0) return false;
     }
     if (failure_) std::rethrow_exception(failure_);
     return !stopped_;
@@ -135,7 +136,7 @@ class Verification::Impl {
       if (!failure_) failure_ = std::current_exception();
     }
     const std::lock_guard lock(mutex_);
-    if (at_work_ > 0) --at_work_;
+    if (working_threads_ > 0) --working_threads_;
     finished_.notify_all();
   }
 
@@ -144,11 +145,11 @@ class Verification::Impl {
   std::vector<std::optional<PropertyRow>> measured_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> stopped_{false};
-  std::size_t at_work_ = 0;
+  std::size_t working_threads_ = 0;
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable finished_;
-  std::vector<Thread> helpers_;  // last member, so that the threads end before the members that they use
+  std::vector<Thread> worker_threads_;  // last member, so that the threads end before the members that they use
 };
 
 Verification::Verification(const VerificationRequest& request) : impl_(std::make_unique<Impl>(request)) {}

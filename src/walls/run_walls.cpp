@@ -112,7 +112,7 @@ bool keep_last_bits(const RunWalls<double>& walls, const Functions<Trace<double>
 }  // namespace
 
 template <class R>
-std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Request& request, const Walls& walls) {
+std::shared_ptr<const RunWalls<R>> add_walls_to_run(ErasedRun<R>& run, const Request& request, const Walls& walls) {
   auto behind = std::make_shared<RunWalls<R>>();
   behind->rule = walls.rule;
   if (walls.hard()) behind->sides = wall_sides<R>(walls);
@@ -125,7 +125,7 @@ std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Req
     if (!interval.min.empty() || !walls.hard()) behind->names.push_back(interval.coordinate);
     if (!interval.max.empty() && walls.hard()) behind->names.push_back(interval.coordinate);
   }
-  run.functions = functions_behind_walls(run.functions, request, walls, behind->sides);
+  run.functions = functions_with_walls(run.functions, request, walls, behind->sides);
   behind->functions = run.functions.plain;
   if constexpr (std::is_same_v<R, double>) {
     if (walls.hard()) {
@@ -144,7 +144,7 @@ std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Req
 }
 
 #define HAMFLOW_RUN_WALLS(R) \
-  template std::shared_ptr<const RunWalls<R>> put_behind_walls<R>(ErasedRun<R>&, const Request&, const Walls&);
+  template std::shared_ptr<const RunWalls<R>> add_walls_to_run<R>(ErasedRun<R>&, const Request&, const Walls&);
 HAMFLOW_RUN_WALLS(double)
 HAMFLOW_RUN_WALLS(DoubleDouble)
 HAMFLOW_RUN_WALLS(Quad)

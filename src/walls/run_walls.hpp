@@ -22,6 +22,6 @@ struct RunWalls {
 
 /// Makes the walls of a request. `run` receives the functions with walls and the rule for its recorded steps.
 template <class R>
-std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Request& request, const Walls& walls);
+std::shared_ptr<const RunWalls<R>> add_walls_to_run(ErasedRun<R>& run, const Request& request, const Walls& walls);
 
 }  // namespace hamflow

@@ -43,18 +43,18 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     if (walls_->mirrors.empty()) return with_walls(exact_->energy(q, p), q);
     V x = q;
     V y = p;
-    const Turned turned = folded(x);
+    const Turned turned = mirrored_inside(x);
     turn(turned, y);
     return exact_->energy(x, y);
   }
   S potential(const V& q) const override {
     V x = q;
-    (void)folded(x);
+    (void)mirrored_inside(x);
     return with_walls(exact_->potential(x), x);
   }
   void force(const V& q, V& f) const override {
     V x = q;
-    const Turned turned = folded(x);
+    const Turned turned = mirrored_inside(x);
     exact_->force(x, f);
     turn(turned, f);
     add_forces(x, f, nullptr);
@@ -62,14 +62,14 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   bool has_scaled_force() const override { return walls_->soft.empty() && exact_->has_scaled_force(); }
   void scaled_force(const S& factor, const V& q, V& f) const override {
     V x = q;
-    const Turned turned = folded(x);
+    const Turned turned = mirrored_inside(x);
     exact_->scaled_force(factor, x, f);
     turn(turned, f);
   }
   void gradient(const V& q, const V& p, V& dq, V& dp) const override {
     V x = q;
     V y = p;
-    const Turned turned = folded(x);
+    const Turned turned = mirrored_inside(x);
     turn(turned, y);
     exact_->gradient(x, y, dq, dp);
     turn(turned, dq);
@@ -79,7 +79,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
     V x = q;
     V y = p;
-    const Turned turned = folded(x);
+    const Turned turned = mirrored_inside(x);
     turn(turned, y);
     exact_->hessian(x, y, qq, qp, pp);
     for (M* m : {&qq, &qp, &pp}) turn(turned, *m);
@@ -87,7 +87,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   }
   void force_and_hessian(const V& q, V& f, M& h) const override {
     V x = q;
-    const Turned turned = folded(x);
+    const Turned turned = mirrored_inside(x);
     exact_->force_and_hessian(x, f, h);
     turn(turned, f);
     turn(turned, h);
@@ -174,17 +174,17 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   using Turned = std::vector<std::conditional_t<is_traced, S, bool>>;
 
   /// Maps q back between the mirrors.
-  Turned folded(V& q) const {
+  Turned mirrored_inside(V& q) const {
     Turned turned;
     if (walls_->mirrors.empty()) return turned;
     if constexpr (is_traced) {
-      return folded_once(q);
+      return mirrored_once(q);
     } else {
       return folded_often(q);
     }
   }
   /// Reflects once. A recording does not cover steps that are still beyond a wall afterwards.
-  Turned folded_once(V& q) const {
+  Turned mirrored_once(V& q) const {
     Turned turned(q.size(), S(B(0)));
     for (const WallSide<B>& wall : walls_->mirrors) {
       const std::size_t i = wall.coordinate;
@@ -249,8 +249,8 @@ std::shared_ptr<const Functions<S>> behind(std::shared_ptr<const Functions<S>> f
 }  // namespace
 
 template <class R>
-ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, const Request& request,
-                                          const Walls& walls, const std::vector<WallSide<R>>& sides) {
+ErasedFunctions<R> functions_with_walls(const ErasedFunctions<R>& functions, const Request& request, const Walls& walls,
+                                        const std::vector<WallSide<R>>& sides) {
   auto terms = std::make_shared<WallTerms<R>>();
   terms->kept = kept_invariants(request, walls);
   const bool breaks = std::find(terms->kept.begin(), terms->kept.end(), false) != terms->kept.end();
@@ -282,14 +282,14 @@ ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, c
   return other;
 }
 
-#define HAMFLOW_BEHIND_WALLS(R)                                                                                  \
-  template ErasedFunctions<R> functions_behind_walls<R>(const ErasedFunctions<R>&, const Request&, const Walls&, \
-                                                        const std::vector<WallSide<R>>&);
-HAMFLOW_BEHIND_WALLS(double)
-HAMFLOW_BEHIND_WALLS(long double)
-HAMFLOW_BEHIND_WALLS(DoubleDouble)
-HAMFLOW_BEHIND_WALLS(Quad)
-HAMFLOW_BEHIND_WALLS(Mp)
-#undef HAMFLOW_BEHIND_WALLS
+#define HAMFLOW_WITH_WALLS(R)                                                                                  \
+  template ErasedFunctions<R> functions_with_walls<R>(const ErasedFunctions<R>&, const Request&, const Walls&, \
+                                                      const std::vector<WallSide<R>>&);
+HAMFLOW_WITH_WALLS(double)
+HAMFLOW_WITH_WALLS(long double)
+HAMFLOW_WITH_WALLS(DoubleDouble)
+HAMFLOW_WITH_WALLS(Quad)
+HAMFLOW_WITH_WALLS(Mp)
+#undef HAMFLOW_WITH_WALLS
 
 }  // namespace hamflow

@@ -10,7 +10,7 @@ namespace hamflow {
 
 /// @param sides hard walls of the run
 template <class R>
-ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, const Request& request,
-                                          const Walls& walls, const std::vector<WallSide<R>>& sides);
+ErasedFunctions<R> functions_with_walls(const ErasedFunctions<R>& functions, const Request& request, const Walls& walls,
+                                        const std::vector<WallSide<R>>& sides);
 
 }  // namespace hamflow

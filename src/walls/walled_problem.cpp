@@ -34,7 +34,7 @@ bool names(const std::string& formula, std::string symbol) {
 /// Whether a wall leaves an invariant: a bounce changes one momentum, on which the invariant must not depend. Among
 /// declared invariants this holds for certain only for the momentum of the last coordinate, which is cyclic; for typed
 /// invariants the formula decides.
-bool leaves(const ProblemEntry& problem, const InvariantInfo& invariant, const Walls::Interval& wall) {
+bool wall_keeps_invariant(const ProblemEntry& problem, const InvariantInfo& invariant, const Walls::Interval& wall) {
   if (problem.structure) {
     const auto momentum =
         wall.index < problem.momenta.size() ? problem.momenta[wall.index] : momentum_name(wall.coordinate);
@@ -46,8 +46,9 @@ bool leaves(const ProblemEntry& problem, const InvariantInfo& invariant, const W
 std::vector<bool> kept_of(const ProblemEntry& problem, const Walls& walls) {
   std::vector<bool> kept;
   for (const InvariantInfo& invariant : problem.info.invariants) {
-    kept.push_back(std::all_of(walls.intervals.begin(), walls.intervals.end(),
-                               [&](const Walls::Interval& wall) { return leaves(problem, invariant, wall); }));
+    kept.push_back(std::all_of(walls.intervals.begin(), walls.intervals.end(), [&](const Walls::Interval& wall) {
+      return wall_keeps_invariant(problem, invariant, wall);
+    }));
   }
   return kept;
 }
@@ -74,7 +75,7 @@ std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
   return {};
 }
 
-ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
+ProblemEntry entry_with_walls(const ProblemEntry& problem, const Walls& walls) {
   ProblemEntry e = problem;
   e.walls = walls;
   e.info.chart_key.clear();
@@ -125,7 +126,7 @@ std::shared_ptr<const ProblemEntry> walled_problem(const std::string& name, cons
                                                    const Walls& walls) {
   static MadeEntries<std::tuple<std::string, Choices, Walls>> made;
   const std::shared_ptr<const ProblemEntry> problem = find_problem(name, choices);
-  return made.find({name, choices, walls}, [&] { return entry_behind(*problem, walls); });
+  return made.find({name, choices, walls}, [&] { return entry_with_walls(*problem, walls); });
 }
 
 }  // namespace hamflow

@@ -5,10 +5,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bounces_in_numbers.hpp"
 #include "core/outside_note.hpp"
 #include "engine/recorded_step.hpp"
 #include "engine/wall_failures.hpp"
-#include "flight_in_numbers.hpp"
 #include "hamflow/detail/core/archive.hpp"
 #include "hamflow/detail/run/step_sums.hpp"
 #include "run_walls.hpp"
@@ -29,7 +29,7 @@ class WalledSimulation : public Simulation {
       : inner_(std::move(inner)),
         parts_(dynamic_cast<Parts*>(inner_.get())),
         recorded_(dynamic_cast<RecordedMember*>(inner_.get())),
-        in_numbers_(dynamic_cast<MovesInNumbers*>(inner_.get())),
+        in_numbers_(dynamic_cast<HasPartsInNumbers*>(inner_.get())),
         walls_(std::move(walls)),
         has_own_substeps_(inner_->method().own_substeps),
         order_(inner_->method().order),
@@ -61,7 +61,7 @@ class WalledSimulation : public Simulation {
   std::int64_t step() const override { return inner_->step(); }
   void look(Frame& frame) const override {
     inner_->look(frame);
-    add_given_up(frame.effort);
+    add_discarded_work(frame.effort);
   }
   void reverse_time() override { inner_->reverse_time(); }
   void negate_momenta() override { inner_->negate_momenta(); }
@@ -72,7 +72,7 @@ class WalledSimulation : public Simulation {
   std::optional<ConstraintResiduals> constraints() const override { return inner_->constraints(); }
   Effort effort() const override {
     Effort all = inner_->effort();
-    add_given_up(all);
+    add_discarded_work(all);
     return all;
   }
   StepDiagnostics diagnostics() const override { return inner_->diagnostics(); }
@@ -95,20 +95,20 @@ class WalledSimulation : public Simulation {
   }
   std::vector<std::byte> save() const override {
     Writer ar;
-    ar(inner_->save(), counts_, given_up_);
+    ar(inner_->save(), counts_, discarded_work_);
     return ar.take();
   }
   void restore(std::span<const std::byte> saved) override {
     Reader ar(saved);
     std::vector<std::byte> inner;
     std::vector<std::int64_t> counts;
-    Effort given_up;
-    ar(inner, counts, given_up);
+    Effort discarded_work;
+    ar(inner, counts, discarded_work);
     ar.finish();
     if (counts.size() != counts_.size()) throw Error("the saved state belongs to other walls");
     inner_->restore(inner);
     counts_ = std::move(counts);
-    given_up_ = given_up;
+    discarded_work_ = discarded_work;
   }
   std::unique_ptr<Simulation> clone() const override { return copy(); }
   Outcome look_ahead(const std::string& time, Frame& frame) const override {
@@ -129,10 +129,10 @@ class WalledSimulation : public Simulation {
 
  protected:
   /// Adds the work of steps that ended beyond a wall and were repeated.
-  void add_given_up(Effort& all) const {
-    add_evaluations(all, given_up_);
-    all.steps += given_up_.steps;
-    all.solves_max = std::max(all.solves_max, given_up_.solves_max);
+  void add_discarded_work(Effort& all) const {
+    add_evaluations(all, discarded_work_);
+    all.steps += discarded_work_.steps;
+    all.solves_max = std::max(all.solves_max, discarded_work_.solves_max);
   }
   /// Whether partial steps include bounces. A sample within a rejected step shows the discarded path; soft walls are a
   /// term of H.
@@ -140,7 +140,7 @@ class WalledSimulation : public Simulation {
   std::unique_ptr<WalledSimulation> copy() const {
     auto other = std::make_unique<WalledSimulation>(inner_->clone(), walls_);
     other->counts_ = counts_;
-    other->given_up_ = given_up_;
+    other->discarded_work_ = discarded_work_;
     return other;
   }
   /// Computed on a copy, so that it changes nothing and reports no bounces.
@@ -149,7 +149,7 @@ class WalledSimulation : public Simulation {
     Outcome outcome = Outcome::done;
     if (walls_->rule == WallRule::mirror) {
       outcome = other->parts_->take_part(part);
-      other->fold();
+      other->mirror_inside();
     } else {
       other->in_pieces_ = has_own_substeps_;
       outcome = other->advance_with_bounces(part);
@@ -166,7 +166,7 @@ class WalledSimulation : public Simulation {
     // A loop that ended at this step decided the same as stays_inside, with the same work.
     const bool is_undone = walls_->rule == WallRule::event && undone_ != nullptr;
     if (is_undone) {
-      add_evaluations(given_up_, std::exchange(undone_, nullptr)->effort);
+      add_evaluations(discarded_work_, std::exchange(undone_, nullptr)->effort);
       if (bounce_in_numbers()) {
         tell();
         return Outcome::done;
@@ -175,14 +175,14 @@ class WalledSimulation : public Simulation {
     parts_->remember_state(Place::step);
     if (is_undone) return after_walls(bounce(Outcome::done));
     const Effort before = inner_->effort();
-    const Effort given_up_before = given_up_;
+    const Effort discarded_work_before = discarded_work_;
     const V q0 = parts_->present_positions();
     const V v0 = walls_->rule == WallRule::event ? velocity(q0, parts_->present_momenta()) : V();
     Outcome outcome = inner_->advance(1);
     if (walls_->rule == WallRule::soft || (outcome != Outcome::done && walls_->rule != WallRule::event)) return outcome;
     Effort spent;
     add_evaluations(spent, inner_->effort(), before);
-    in_pieces_ = looks_into_steps() && (starts_at_rest(v0) || has_several_parts(outcome, spent));
+    in_pieces_ = searches_within_steps() && (starts_at_rest(v0) || has_several_parts(outcome, spent));
     if (outcome == Outcome::done && !in_pieces_ && stays_inside(q0, v0)) return outcome;
     if (walls_->rule == WallRule::event) {
       parts_->restore_state(Place::step);
@@ -191,8 +191,8 @@ class WalledSimulation : public Simulation {
       outcome = walls_->rule == WallRule::reject ? reject(spent) : mirror();
     }
     if (outcome == Outcome::done) {
-      if (walls_->rule == WallRule::event) add_evaluations(given_up_, spent);
-      count_as_one(before, given_up_before);
+      if (walls_->rule == WallRule::event) add_evaluations(discarded_work_, spent);
+      count_as_one(before, discarded_work_before);
     }
     return after_walls(outcome);
   }
@@ -228,7 +228,7 @@ class WalledSimulation : public Simulation {
   /// Whether steps with both ends inside are tested by is_long. Loops of recorded steps test only their tangents, and
   /// which steps run in loops depends on lanes, samples and resuming; so all steps of a method that can be recorded
   /// have the same test.
-  bool looks_into_steps() const { return walls_->rule == WallRule::event && recorded_ == nullptr; }
+  bool searches_within_steps() const { return walls_->rule == WallRule::event && recorded_ == nullptr; }
   /// Whether a step may consist of several sub-steps, judged by its work: a sub-step costs as many evaluations as a
   /// series has terms, or one and a half times the order for the stages of dop853. It may be true for a single sub-step
   /// (after a rejection, or if the work is unknown); the search then takes longer and finds the same.
@@ -253,7 +253,7 @@ class WalledSimulation : public Simulation {
       if (wall.beyond(R(q1[i])) > R(0)) return false;
       if (!and_turns) return true;
       const R side = R(wall.side) * h;
-      if (looks_into_steps() &&
+      if (searches_within_steps() &&
           WallSearch<R>::is_long(wall.beyond(q0[i]), side * v0[i], wall.beyond(q1[i]), side * v1[i])) {
         return false;
       }
@@ -267,7 +267,7 @@ class WalledSimulation : public Simulation {
     const V q1 = parts_->present_positions();
     if (!parts_->restore_state_keeping_effort(Place::step)) {
       parts_->restore_state(Place::step);
-      add_evaluations(given_up_, spent);
+      add_evaluations(discarded_work_, spent);
     }
     std::size_t last = 0;
     for (std::size_t k = 0; k < walls_->sides.size(); ++k) {
@@ -285,7 +285,7 @@ class WalledSimulation : public Simulation {
 
   /// Maps a state beyond walls back inside, one reflection after the other: there the motion of the mirrored H is the
   /// mirror image of that of H.
-  bool fold() {
+  bool mirror_inside() {
     for (int n = 0; n <= most_bounces; ++n) {
       const V q = parts_->present_positions();
       const auto wall = std::find_if(walls_->sides.begin(), walls_->sides.end(),
@@ -303,7 +303,7 @@ class WalledSimulation : public Simulation {
   }
 
   Outcome mirror() {
-    if (!fold()) {
+    if (!mirror_inside()) {
       why_ = "more than " + std::to_string(most_bounces) + " bounces in one step, the last off the wall of " +
              walls_->names[met_.back().side];
       return Outcome::wall;
@@ -319,14 +319,14 @@ class WalledSimulation : public Simulation {
     const Effort before = inner_->effort();
     const Outcome outcome = advance_with_bounces(parts_->length_of_step());
     if (outcome != Outcome::done) return outcome;
-    add_evaluations(given_up_, parts_->effort_of_parts(), spent_before);
+    add_evaluations(discarded_work_, parts_->effort_of_parts(), spent_before);
     if (met_.empty()) {
       parts_->restore_state(Place::step);
       return whole == Outcome::done ? inner_->advance(1) : whole;
     }
     Effort kept;
     add_evaluations(kept, inner_->effort(), before);
-    add_evaluations(given_up_, {}, kept);
+    add_evaluations(discarded_work_, {}, kept);
     return parts_->complete_step();
   }
 
@@ -347,10 +347,10 @@ class WalledSimulation : public Simulation {
       };
       const Effort before = inner_->effort();
       if (bounces_in_numbers_->take(*numbers, parts_->length_of_step(), bounced) && !met_.empty() &&
-          in_numbers_->land()) {
+          in_numbers_->write_back_state()) {
         Effort kept;
         add_evaluations(kept, inner_->effort(), before);
-        add_evaluations(given_up_, numbers->effort(), kept);
+        add_evaluations(discarded_work_, numbers->effort(), kept);
         if (parts_->complete_step() != Outcome::done)
           throw std::logic_error("hamflow: a part of a step that was evaluated cannot be taken");
         return true;
@@ -427,12 +427,13 @@ class WalledSimulation : public Simulation {
 
   /// Counts the iterations of a rejected or divided step, including discarded ones, as those of one step; each of its
   /// parts has counted itself as a step.
-  void count_as_one(const Effort& before, const Effort& given_up_before) {
+  void count_as_one(const Effort& before, const Effort& discarded_work_before) {
     const Effort now = inner_->effort();
-    if (now.linear_solves == 0 && given_up_.linear_solves == 0) return;
-    given_up_.steps += 1 - (now.steps - before.steps);
-    given_up_.solves_max = std::max(given_up_.solves_max, now.linear_solves - before.linear_solves +
-                                                              given_up_.linear_solves - given_up_before.linear_solves);
+    if (now.linear_solves == 0 && discarded_work_.linear_solves == 0) return;
+    discarded_work_.steps += 1 - (now.steps - before.steps);
+    discarded_work_.solves_max =
+        std::max(discarded_work_.solves_max, now.linear_solves - before.linear_solves + discarded_work_.linear_solves -
+                                                 discarded_work_before.linear_solves);
   }
   Outcome back_with(Outcome why) {
     parts_->restore_state(Place::step);
@@ -462,15 +463,15 @@ class WalledSimulation : public Simulation {
   }
 
   std::unique_ptr<Simulation> inner_;
-  Parts* parts_;                // the same
-  RecordedMember* recorded_;    // the same; null if it is not recorded
-  MovesInNumbers* in_numbers_;  // the same
+  Parts* parts_;                   // the same
+  RecordedMember* recorded_;       // the same; null if it is not recorded
+  HasPartsInNumbers* in_numbers_;  // the same
   std::shared_ptr<const RunWalls<R>> walls_;
   bool has_own_substeps_;
   int order_;
   bool in_pieces_ = false;            // the present step is searched in pieces, whatever its ends look like
   std::vector<std::int64_t> counts_;  // bounces of each side
-  Effort given_up_;                   // work of the search for bounces and of rejected steps
+  Effort discarded_work_;             // work of the search for bounces and of rejected steps
   std::vector<Met> met_;              // bounces in the present step
   std::optional<BouncesInNumbers> bounces_in_numbers_;
   const RecordedStep* undone_ =
@@ -515,10 +516,10 @@ class WalledMember final : public WalledSimulation<double>, public RecordedMembe
 }  // namespace
 
 template <class R>
-std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
-                                                  Simulate<R> simulate) {
+std::unique_ptr<Simulation> simulate_with_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
+                                                Simulate<R> simulate) {
   ErasedRun<R> other = run;
-  auto behind = put_behind_walls(other, request, walls);
+  auto behind = add_walls_to_run(other, request, walls);
   if constexpr (std::is_same_v<R, double>) {
     return std::make_unique<WalledMember>(simulate(other, request), std::move(behind));
   } else {
@@ -526,13 +527,13 @@ std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const
   }
 }
 
-#define HAMFLOW_BEHIND_WALLS(R)                                                                                    \
-  template std::unique_ptr<Simulation> simulate_behind_walls<R>(const ErasedRun<R>&, const Request&, const Walls&, \
-                                                                Simulate<R>);
-HAMFLOW_BEHIND_WALLS(double)
-HAMFLOW_BEHIND_WALLS(DoubleDouble)
-HAMFLOW_BEHIND_WALLS(Quad)
-HAMFLOW_BEHIND_WALLS(Mp)
-#undef HAMFLOW_BEHIND_WALLS
+#define HAMFLOW_WITH_WALLS(R)                                                                                    \
+  template std::unique_ptr<Simulation> simulate_with_walls<R>(const ErasedRun<R>&, const Request&, const Walls&, \
+                                                              Simulate<R>);
+HAMFLOW_WITH_WALLS(double)
+HAMFLOW_WITH_WALLS(DoubleDouble)
+HAMFLOW_WITH_WALLS(Quad)
+HAMFLOW_WITH_WALLS(Mp)
+#undef HAMFLOW_WITH_WALLS
 
 }  // namespace hamflow

@@ -13,7 +13,7 @@ using Simulate = std::unique_ptr<Simulation> (*)(const ErasedRun<R>&, const Requ
 /// The simulation of a request with walls.
 /// @param simulate makes the simulation without walls
 template <class R>
-std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
-                                                  Simulate<R> simulate);
+std::unique_ptr<Simulation> simulate_with_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
+                                                Simulate<R> simulate);
 
 }  // namespace hamflow

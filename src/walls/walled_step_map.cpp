@@ -19,10 +19,10 @@ Vector<R, dynamic> part_of(const State<R>& z, std::size_t first, std::size_t siz
 }
 
 /// The problem with the H of the walls: soft walls are a term of H; beyond a mirror H continues as its image.
-ErasedProblem problem_behind(const ErasedProblem& problem, const Request& request, const Walls& walls) {
+ErasedProblem problem_with_walls(const ErasedProblem& problem, const Request& request, const Walls& walls) {
   const auto behind = [&]<class R>(const ErasedFunctions<R>& functions) {
-    return functions_behind_walls(functions, request, walls,
-                                  walls.hard() ? wall_sides<R>(walls) : std::vector<WallSide<R>>());
+    return functions_with_walls(functions, request, walls,
+                                walls.hard() ? wall_sides<R>(walls) : std::vector<WallSide<R>>());
   };
   return {behind(problem.in_double), behind(problem.in_long), behind(problem.in_quad)};
 }
@@ -30,7 +30,7 @@ ErasedProblem problem_behind(const ErasedProblem& problem, const Request& reques
 /// The claims of a method that hold with bounces. The time of a located bounce depends on the state, and a rejection
 /// reverses a momentum without moving its coordinate, so neither is symplectic. Mirrors and rejections have an error of
 /// first order in the step.
-MethodInfo claims_behind(const Walls& walls, MethodInfo claims) {
+MethodInfo claims_with_walls(const Walls& walls, MethodInfo claims) {
   claims.name += " + " + wall_rules()[static_cast<std::size_t>(walls.rule)];
   if (walls.rule != WallRule::mirror) claims.symplectic = false;
   if (walls.rule == WallRule::event) return claims;
@@ -50,7 +50,8 @@ class WalledStepMap final : public StepMap {
       : problem_(problem),
         request_(request),
         walls_(walls),
-        free_(make(walls.rule == WallRule::mirror ? problem_behind(problem, request, walls) : problem, request.method)),
+        free_(make(walls.rule == WallRule::mirror ? problem_with_walls(problem, request, walls) : problem,
+                   request.method)),
         size_(problem.in_double.size) {
     request_.arithmetic = "double";
     request_.threads = 1;
@@ -59,7 +60,7 @@ class WalledStepMap final : public StepMap {
   }
 
   std::size_t dimension() const override { return size_; }
-  MethodInfo claims() const override { return claims_behind(walls_, free_->claims()); }
+  MethodInfo claims() const override { return claims_with_walls(walls_, free_->claims()); }
   bool advance(State<double>& z, double h, std::int64_t steps) const override {
     return take(*simulation(z, h, request_), steps, z);
   }
@@ -317,10 +318,10 @@ class WalledStepMap final : public StepMap {
 
 }  // namespace
 
-std::unique_ptr<StepMap> step_map_behind_walls(const ErasedProblem& problem, const Request& request, const Walls& walls,
-                                               MakeStepMap make) {
+std::unique_ptr<StepMap> step_map_with_walls(const ErasedProblem& problem, const Request& request, const Walls& walls,
+                                             MakeStepMap make) {
   if (walls.hard()) return std::make_unique<WalledStepMap>(problem, request, walls, make);
-  return make(problem_behind(problem, request, walls), request.method);
+  return make(problem_with_walls(problem, request, walls), request.method);
 }
 
 }  // namespace hamflow

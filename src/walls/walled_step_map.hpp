@@ -10,7 +10,7 @@ namespace hamflow {
 using MakeStepMap = std::unique_ptr<StepMap> (*)(const ErasedProblem&, const MethodSpec&);
 
 /// @param request with the problem and the method
-std::unique_ptr<StepMap> step_map_behind_walls(const ErasedProblem& problem, const Request& request, const Walls& walls,
-                                               MakeStepMap make);
+std::unique_ptr<StepMap> step_map_with_walls(const ErasedProblem& problem, const Request& request, const Walls& walls,
+                                             MakeStepMap make);
 
 }  // namespace hamflow

@@ -17,9 +17,9 @@
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
-#include "meant.hpp"
 #include "option_text.hpp"
 #include "run_keys.hpp"
+#include "suggested_names.hpp"
 
 namespace hamflow {
 
@@ -73,7 +73,7 @@ bool write_keys(std::ostream& out, const std::string& name) {
 
 /// Suggests a known name for an unknown one. Choices of problems are tried first: "kepler" is a potential, not a
 /// misspelt "euler".
-std::string meant_by(const std::string& name, const std::vector<std::string>& names) {
+std::string suggested_name(const std::string& name, const std::vector<std::string>& names) {
   if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
     return "; did you mean " + run_path(run_keys().arithmetic) + " = \"" + name + "\"?";
   }
@@ -403,7 +403,7 @@ std::string not_in_catalogue(const std::string& name, const std::vector<std::str
   if (experiments != nullptr) names.insert(names.end(), experiments->begin(), experiments->end());
   return fmt::format("there is no problem, method{} '{}'{} ({}, {}{}; keys: {}, {})",
                      experiments == nullptr ? " or figure" : ", figure or experiment", name,
-                     meant_by(name.substr(0, name.find('(')), names), command_name("list problems"),
+                     suggested_name(name.substr(0, name.find('(')), names), command_name("list problems"),
                      command_name("list methods"),
                      experiments == nullptr ? "" : ", " + command_name("list experiments"), command_name("show run"),
                      command_name("show output"));

@@ -96,11 +96,11 @@ class RequestReader {
         complain(option_name("methods"), what.starts_with("found") ? what : "found '" + name + "'; " + what);
       }
     }
-    if (complaints.empty()) refuse_the_same(all);
+    if (complaints.empty()) refuse_duplicate_methods(all);
   }
 
   /// Refuses a method that is given twice, because rows are identified by the names of their methods.
-  void refuse_the_same(const std::vector<std::string>& typed) {
+  void refuse_duplicate_methods(const std::vector<std::string>& typed) {
     const std::vector<std::string> names = comparison_names(request.methods);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto first = static_cast<std::size_t>(std::find(names.begin(), names.end(), names[i]) - names.begin());

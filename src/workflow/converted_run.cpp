@@ -216,7 +216,7 @@ class ConvertedRun::Impl {
       text += converted_text(changed, to_, start);
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
-    const LeftOut left_out = copy_run_file(
+    const OmittedFromCopy left_out = copy_run_file(
         file_, target,
         {.scenario = text, .coordinates = states_.names.q, .momenta = states_.names.p, .table = states_.table});
     if (!left_out.tables.empty()) {

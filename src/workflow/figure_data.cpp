@@ -28,13 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string drawn_by_sweep() { return "of a sweep: " + command_name("sweep --figure") + " draws it"; }
+std::string sweep_draws_it() { return "of a sweep: " + command_name("sweep --figure") + " draws it"; }
 
 /// Describes a folder that has no samples to draw; empty if its files do not show what it is.
-std::string what_is(const fs::path& folder) {
+std::string described_folder(const fs::path& folder) {
   std::error_code none;
   const auto has = [&](const char* name) { return fs::exists(folder / name, none); };
-  if (has("sweep.h5") || has("members.bin")) return "the folder " + drawn_by_sweep();
+  if (has("sweep.h5") || has("members.bin")) return "the folder " + sweep_draws_it();
   if (has("compare.json")) {
     const fs::path figure = folder / "figures" / "work-precision.svg";
     return "the folder of a comparison" +
@@ -203,12 +203,12 @@ bool show_energy(const std::vector<std::string>& kinds) {
 fs::path stored_run_in(const fs::path& run) {
   std::error_code none;
   if (run.filename() == "sweep.h5" && fs::exists(run, none)) {
-    throw FileError(run.string() + " cannot be read: it is the table " + drawn_by_sweep());
+    throw FileError(run.string() + " cannot be read: it is the table " + sweep_draws_it());
   }
   if (!fs::is_directory(run, none)) return run;
   if (fs::exists(run / "run.h5", none)) return run / "run.h5";
   if (fs::exists(run / "reverse.h5", none)) return run / "reverse.h5";
-  const std::string other = what_is(run);
+  const std::string other = described_folder(run);
   if (!other.empty())
     throw FileError((run / "run.h5").string() + " cannot be read: the file does not exist; the folder is " + other);
   return run / "run.h5";
@@ -286,7 +286,7 @@ RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const
   if (problem.dimension == 1 && !data.has_time && !has_hard_walls(scenario.request)) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
-  if (scenario.section && !tables.section.empty() && (data.q.size() >= 2 || scenario.section->by_time_alone)) {
+  if (scenario.section && !tables.section.empty() && (data.q.size() >= 2 || scenario.section->is_stroboscopic)) {
     add_section(*scenario.section, names, tables.section, data);
   }
   fs::path named = run;

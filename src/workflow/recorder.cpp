@@ -77,11 +77,11 @@ void Recorder::append(const SectionPoint& point) {
 }
 
 void Recorder::append(const Bounce& bounce) {
-  if (!wants_bounces()) return;
+  if (!records_more_bounces()) return;
   rows_->append(bounce);
   if (h5_) h5_->flush_if_many();
 }
-bool Recorder::wants_bounces() const {
+bool Recorder::records_more_bounces() const {
   return rows_ && rows_->bounce_rows() < static_cast<std::uint64_t>(scenario_.record_events);
 }
 

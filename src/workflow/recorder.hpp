@@ -31,7 +31,7 @@ class Recorder final : public Observer {
   /// Records a bounce, up to the number that the scenario allows.
   void append(const Bounce& bounce);
   /// Returns whether more bounces shall be recorded.
-  bool wants_bounces() const;
+  bool records_more_bounces() const;
   void append(std::size_t event, std::int64_t step, const SectionPoint& point);
 
   /// If a run with samples by steps ended early, adds the last state as a sample.

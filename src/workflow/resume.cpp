@@ -11,8 +11,8 @@
 #include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/run/gas.hpp"
 #include "json_text.hpp"
+#include "run_identity.hpp"
 #include "run_keys.hpp"
-#include "run_mark.hpp"
 
 namespace hamflow {
 

@@ -8,8 +8,8 @@
 #include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "resume.hpp"
+#include "run_identity.hpp"
 #include "run_keys.hpp"
-#include "run_mark.hpp"
 
 namespace hamflow {
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* reversal_file = "reversal.bin";
 constexpr const char* reversal_record = "reversal";
-constexpr const char* forward_record = "there";  // record of the first half, for warnings
+constexpr const char* first_half_record = "there";  // record of the first half, for warnings
 constexpr double seconds_between = 10;
 
 std::uint64_t hash_of_text(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
@@ -36,7 +36,7 @@ ReversalProgress progress_in(const Checkpoint& checkpoint) {
 }
 
 template <class Archive>
-void archive_forward(Archive& ar, ReversalProgress& progress, TurnWatch& turns) {
+void archive_forward(Archive& ar, ReversalProgress& progress, TurningPointObserver& turns) {
   Excursion& energy = progress.forward_energy;
   ar(energy.initial, energy.final, energy.max_error, energy.scale_at_start, energy.exchanged);
   turns.archive(ar);
@@ -88,7 +88,7 @@ ReversalCheckpoints::ReversalCheckpoints(const Scenario& scenario, Simulation& s
       simulation.restore(from->simulation);
       progress_ = progress_in(*from);
       for (const ObserverRecord& record : from->observers) {
-        if (record.name != forward_record) continue;
+        if (record.name != first_half_record) continue;
         Reader ar(record.bytes);
         archive_forward(ar, progress_, turns_);
         ar.finish();
@@ -123,7 +123,7 @@ void ReversalCheckpoints::write() {
   progress_.archive(ar);
   Writer there;
   archive_forward(there, progress_, turns_);
-  checkpoint_.observers = {{reversal_record, ar.take()}, {forward_record, there.take()}};
+  checkpoint_.observers = {{reversal_record, ar.take()}, {first_half_record, there.take()}};
   write_checkpoint(file_, checkpoint_);
   last_ = Clock::now();
 }

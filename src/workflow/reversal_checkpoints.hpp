@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "checkpoint.hpp"
-#include "hamflow/detail/verify/turns.hpp"
+#include "hamflow/detail/verify/turning_points.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "verify/reversal_progress.hpp"
 
@@ -26,7 +26,7 @@ class ReversalCheckpoints final : public Observer {
                       const Checkpoint* from);
   ReversalProgress& progress() { return progress_; }
   /// Returns the observer of the coordinates during the first half.
-  TurnWatch& turns() { return turns_; }
+  TurningPointObserver& turns() { return turns_; }
 
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
@@ -43,7 +43,7 @@ class ReversalCheckpoints final : public Observer {
   std::int64_t every_;
   Checkpoint checkpoint_;
   ReversalProgress progress_;
-  TurnWatch turns_;
+  TurningPointObserver turns_;
   Clock::time_point last_ = Clock::now();
 };
 

@@ -62,7 +62,7 @@ double digits_lost(const Reversal& reversal, const std::string& arithmetic) {
   return log10_of(lost) - log10_of_unit(arithmetic);
 }
 
-ReturnError return_error(const Reversal& reversal, std::size_t bodies) {
+BodyReversalError return_error(const Reversal& reversal, std::size_t bodies) {
   const auto n = static_cast<double>(bodies);
   const Frame& a = reversal.end;
   const Frame& b = reversal.start;

@@ -14,6 +14,6 @@ std::size_t bodies_in(const Scenario& scenario);
 /// digit was lost.
 double digits_lost(const Reversal& reversal, const std::string& arithmetic);
 
-ReturnError return_error(const Reversal& reversal, std::size_t bodies);
+BodyReversalError return_error(const Reversal& reversal, std::size_t bodies);
 
 }  // namespace hamflow

@@ -132,7 +132,7 @@ StateSummary state(const Frame& frame, const std::string& arithmetic, const char
 /// negated.
 class ForwardObserver final : public Observer {
  public:
-  ForwardObserver(TurnWatch& turns, std::int64_t steps) : turns_(turns), steps_(steps) {}
+  ForwardObserver(TurningPointObserver& turns, std::int64_t steps) : turns_(turns), steps_(steps) {}
   std::int64_t next_due(std::int64_t step) const override {
     const std::int64_t due = turns_.next_due(step);
     return due > steps_ ? never : due;
@@ -140,13 +140,13 @@ class ForwardObserver final : public Observer {
   Verdict observe(const Frame& frame) override { return turns_.observe(frame); }
 
  private:
-  TurnWatch& turns_;
+  TurningPointObserver& turns_;
   std::int64_t steps_;
 };
 
 /// Returns warnings about the motion that was reversed. Both halves are judged if the second half is the same motion.
 std::vector<Warning> warnings_about(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
-                                    bool same_motion, const Excursion& there, const TurnWatch& turns) {
+                                    bool same_motion, const Excursion& there, const TurningPointObserver& turns) {
   std::optional<OrbitSummary> orbit;
   if (scenario.problem->describe_orbit) orbit = orbit_of(scenario);
   return warnings_of(scenario, {.energy = same_motion ? simulation.energy() : there,
@@ -159,10 +159,10 @@ std::vector<Warning> warnings_about(const Scenario& scenario, const Simulation& 
 
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
 
-BodiesReturned bodies_returned(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
-                               std::size_t bodies) {
+BodyReversalSummary bodies_returned(const Scenario& scenario, const Simulation& simulation, const Reversal& r,
+                                    std::size_t bodies) {
   const bool done = r.outcome == Outcome::done;
-  BodiesReturned all;
+  BodyReversalSummary all;
   if (done) all.error = return_error(r, bodies);
   const Effort effort = simulation.effort();
   // A reversal whose first step failed has no evaluations.
@@ -218,7 +218,7 @@ void fields(Ar& ar, GroupDistance& x) {
 }
 
 template <class Ar>
-void fields(Ar& ar, ReturnError& x) {
+void fields(Ar& ar, BodyReversalError& x) {
   ar("position", x.position, "momentum", x.momentum, "position_rms", x.position_rms, "momentum_rms", x.momentum_rms);
 }
 
@@ -318,7 +318,7 @@ void describe(ReversalReport& report) {
 }
 
 ReversalReport report_of(const Scenario& scenario, const Simulation& simulation, Reversal reversal,
-                         const Excursion& there, const TurnWatch& turns, bool kept) {
+                         const Excursion& there, const TurningPointObserver& turns, bool kept) {
   ReversalReport report;
   report.reversal = std::move(reversal);
   const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
@@ -368,7 +368,7 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
 
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t)>& pulse) {
   const auto simulation = make_simulation(scenario.request);
-  TurnWatch turns(scenario.dt, takes_equal_steps(simulation->method()));
+  TurningPointObserver turns(scenario.dt, takes_equal_steps(simulation->method()));
   ForwardObserver forward_observer(turns, scenario.steps);
   Observer* const observers[] = {&forward_observer};
   ReversalProgress progress;

@@ -10,8 +10,8 @@
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "resume.hpp"
+#include "run_identity.hpp"
 #include "run_keys.hpp"
-#include "run_mark.hpp"
 #include "scenario_edit.hpp"
 #include "summary.hpp"
 
@@ -48,19 +48,19 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
 constexpr double grace = 0.4;  // grace period after Ctrl-C in seconds, for the certificate and then for the figures
 
 /// Draws the figures. After an interrupt they are drawn only if that takes no longer than the grace period.
-/// @param asked_before whether a stop was requested   @param tables tables of the run; null: they are read from its
-/// folder
-void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, bool asked_before,
+/// @param stop_was_requested whether a stop was requested   @param tables tables of the run; null: they are read from
+/// its folder
+void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, bool stop_was_requested,
           const RunTables* tables, RunReport& report) {
   const auto begin = std::chrono::steady_clock::now();
-  const figures::WhileDrawing watch([&] {
-    if (!asked_before) return !settings.pulse || settings.pulse(step);
+  const figures::StopDrawingScope watch([&] {
+    if (!stop_was_requested) return !settings.pulse || settings.pulse(step);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < grace;
   });
   try {
     for (const std::string& missing : draw_figures(scenario, settings.folder, tables)) note(settings, missing);
   } catch (const figures::DrawingStopped& stopped) {
-    report.file_trouble = stopped.what();
+    report.file_error = stopped.what();
     report.drawing_stopped = true;
   }
 }
@@ -151,15 +151,15 @@ class ScenarioRun {
     // This happens after the last checkpoint was written, because a longer run that resumes from it does not end here.
     Frame end;
     simulation_->look(end);
-    measures_->reach_the_end(end);
+    measures_->observe_end(end);
     RunReport report;
     std::optional<RunCertificate> certificate;
     if (!scenario_.map) {
       // Without a certificate only the sizes of energies are needed, so no further steps are taken.
-      const GoOn no_steps = [] { return false; };
-      certificate =
-          certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
-                  scenario_.certificate ? going_on(result.outcome == Outcome::stopped, result.steps_taken) : no_steps);
+      const ContinueQuestion no_steps = [] { return false; };
+      certificate = certify(
+          scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
+          scenario_.certificate ? continue_question(result.outcome == Outcome::stopped, result.steps_taken) : no_steps);
       const auto& reversal = certificate->reversal;
       certificate_stopped_ = scenario_.certificate && reversal && reversal->was_stopped;
       if (certificate_stopped_) result.outcome = Outcome::stopped;  // the certificate is incomplete
@@ -175,7 +175,7 @@ class ScenarioRun {
              "times of run.record end before the run"});
       }
     }
-    report.file_trouble = result.file_trouble;
+    report.file_error = result.file_error;
     report.outcome = result.outcome;
     report.json = summary_json(report.summary);
     describe(report);
@@ -206,8 +206,8 @@ class ScenarioRun {
   }
   /// Returns a function that tells whether the work after the steps may continue. If a stop was requested, it may take
   /// `grace` seconds: no step and no set-up of a simulation begins that would take longer.
-  GoOn going_on(bool asked_before, std::int64_t step) const {
-    if (!asked_before) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
+  ContinueQuestion continue_question(bool stop_was_requested, std::int64_t step) const {
+    if (!stop_was_requested) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
     return [this, begin = std::chrono::steady_clock::now()] {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       return seconds + std::max(step_seconds_, setup_seconds_) < grace;
@@ -217,14 +217,14 @@ class ScenarioRun {
 
   RunResult take_steps() {
     RunResult result;
-    const GoOn goes_on = [this] { return !settings_.pulse || settings_.pulse(simulation_->step()); };
+    const ContinueQuestion goes_on = [this] { return !settings_.pulse || settings_.pulse(simulation_->step()); };
     const StopQuestion question(goes_on);
     try {
       result.outcome = run(*simulation_, scenario_.steps, observers_, [&](std::int64_t step) {
         if (recorder_) {
           recorder_->flush_if_due();
           if (checkpoints_) checkpoints_->write_if_due();
-          if (!recorder_->wants_bounces()) simulation_->tell_bounces({});  // unreported bounces cost less
+          if (!recorder_->records_more_bounces()) simulation_->tell_bounces({});  // unreported bounces cost less
         }
         return !settings_.pulse || settings_.pulse(step);
       });
@@ -238,7 +238,7 @@ class ScenarioRun {
         if (checkpoints_ && status_of(result.outcome) != "failed") checkpoints_->write();
       }
     } catch (const FileError& error) {  // for example a full disk; the results are reported nevertheless
-      result.file_trouble = error.what();
+      result.file_error = error.what();
     }
     if (is_failure(result.outcome) && result.failure.empty()) result.failure = simulation_->failure();
     return result;
@@ -269,11 +269,11 @@ class ScenarioRun {
       checkpoints_.reset();
       recorder_->close();
       if (report.status != "failed") {
-        const bool asked_before = report.status == "interrupted" || certificate_stopped_;
-        draw(scenario_, settings_, simulation_->step(), asked_before, recorder_->tables(), report);
+        const bool stop_was_requested = report.status == "interrupted" || certificate_stopped_;
+        draw(scenario_, settings_, simulation_->step(), stop_was_requested, recorder_->tables(), report);
       }
     } catch (const std::exception& error) {  // the run itself is complete
-      report.file_trouble = error.what();
+      report.file_error = error.what();
     }
   }
 
@@ -288,7 +288,7 @@ class ScenarioRun {
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;
   EnergyBlocks blocks_{energy_for_blocks(scenario_.request, *scenario_.problem, scenario_.start_q.size())};
-  TurnWatch turns_;
+  TurningPointObserver turns_;
   std::optional<Measures> measures_;
   bool certificate_stopped_ = false;
   std::vector<Observer*> observers_;

@@ -15,7 +15,7 @@ namespace hamflow {
 /// Returns the coordinate that is drawn with its momentum: the one after the coordinate of the section; the first one
 /// if the section is defined by time.
 inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
-  return section.by_time_alone ? 0 : (section.coordinate + 1) % size;
+  return section.is_stroboscopic ? 0 : (section.coordinate + 1) % size;
 }
 
 /// Returns "section x = 0, x increasing" as enhanced text.

@@ -80,7 +80,7 @@ void Session::restart() {
   effort_before_ = {};
   bounces_before_.clear();
   bounces_.clear();
-  listen();
+  report_bounces();
   initial_energy_ = simulation_->energy().initial;
   worst_energy_ = 0;
   worst_residuals_.reset();
@@ -92,10 +92,10 @@ void Session::restart() {
   reference_ = start.invariants;
   offset_.assign(start.invariants.size(), 0);
   worst_invariants_.assign(sizes_.size(), 0);
-  turns_ = TurnWatch(evaluate_number<double>(request_.dt), takes_equal_steps(simulation_->method()));
+  turns_ = TurningPointObserver(evaluate_number<double>(request_.dt), takes_equal_steps(simulation_->method()));
 }
 
-void Session::set_step_length(const std::string& text) {
+void Session::set_step_size(const std::string& text) {
   const OptionInfo& dt = run_keys().dt;
   if (const std::string refused = refused_value(dt, text); !refused.empty()) throw Error(dt.name + ": " + refused);
   Request next = request_;
@@ -198,7 +198,7 @@ void Session::change(const Request& next, const std::string& what) {
   if (!now.digits.time.empty()) exact_time_before_ = sum_of(exact_time_before_, now.digits.time, request_.arithmetic);
   worst_residuals_ = constraints();
   simulation_ = std::move(other);
-  listen();
+  report_bounces();
   request_ = from_here;
   changes_.push_back({step_before_, time_before_, what});
   turns_.restart(step_before_, evaluate_number<double>(request_.dt), takes_equal_steps(simulation_->method()));
@@ -232,14 +232,14 @@ Scenario Session::present() const {
   return now;
 }
 
-bool Session::wants_bounces() const { return std::ssize(bounces_) < scenario_.record_events; }
+bool Session::records_more_bounces() const { return std::ssize(bounces_) < scenario_.record_events; }
 
 /// Collects the bounces of the current part, whose steps and times count from the start of the part.
-void Session::listen() {
-  listens_ = wants_bounces();
-  if (!listens_) return;
+void Session::report_bounces() {
+  reports_bounces_ = records_more_bounces();
+  if (!reports_bounces_) return;
   simulation_->tell_bounces([this](const Bounce& bounce) {
-    if (!wants_bounces()) return;
+    if (!records_more_bounces()) return;
     Bounce& kept = bounces_.emplace_back(bounce);
     kept.step += step_before_;
     kept.time += time_before_;
@@ -250,9 +250,9 @@ void Session::listen() {
 }
 
 Outcome Session::advance(std::int64_t steps) {
-  if (listens_ && !wants_bounces()) {  // unreported bounces cost less
+  if (reports_bounces_ && !records_more_bounces()) {  // unreported bounces cost less
     simulation_->tell_bounces({});
-    listens_ = false;
+    reports_bounces_ = false;
   }
   if (one_part_) return simulation_->advance(steps);
   for (std::int64_t i = 0; i < steps; ++i) {
@@ -405,7 +405,7 @@ Verdict SampleKeeper::observe(const Frame& frame) {
   return Verdict::go_on;
 }
 
-std::vector<Frame> SampleKeeper::with_present(const Simulation& simulation) const {
+std::vector<Frame> SampleKeeper::with_current_state(const Simulation& simulation) const {
   std::vector<Frame> all = samples_;
   if (all.empty() || all.back().step != simulation.step()) all.emplace_back();
   simulation.look(all.back());  // the momenta may have been negated since the sample

@@ -33,7 +33,7 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   WorkFolder folder(path, run_folder(), replace ? Existing::replace : Existing::refuse);
   folder.prepare();
   const Scenario present = session.present();
-  const std::vector<Frame> kept = samples.with_present(session);
+  const std::vector<Frame> kept = samples.with_current_state(session);
   RunDescription description = description_of(present, kept.size());
   description.events.clear();
   description.section = false;       // a session does not search for section points

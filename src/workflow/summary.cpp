@@ -307,11 +307,11 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
 RunError error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
   Frame frame;
   simulation.look(frame);
-  if (!result.file_trouble.empty()) {
+  if (!result.file_error.empty()) {
     return {"file",
             frame.step,
             frame.time,
-            result.file_trouble,
+            result.file_error,
             "free disk space, or choose another folder with " + option_name("out") +
                 "; samples written before the failure are kept",
             {}};
@@ -402,14 +402,14 @@ static EnergySummary energy_of(const Scenario& scenario, const Excursion& seen, 
 }
 
 Summary summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                   const RunCertificate* certificate, const Measures* measures, const TurnWatch* turns) {
+                   const RunCertificate* certificate, const Measures* measures, const TurningPointObserver* turns) {
   const Request& request = scenario.request;
   const ProblemEntry& problem = *scenario.problem;
   const MethodInfo method = describe(request.method);
   Frame frame;
   simulation.look(frame);
   Summary s;
-  s.status = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
+  s.status = result.file_error.empty() ? status_of(result.outcome) : "failed";
   s.problem = request.problem;
   s.method = method.name;
   s.arithmetic = request.arithmetic;

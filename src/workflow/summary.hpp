@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "hamflow/detail/verify/turns.hpp"
+#include "hamflow/detail/verify/turning_points.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
@@ -17,8 +17,8 @@ struct MemberStop;
 /// Result of taking the steps of a run.
 struct RunResult {
   Outcome outcome = Outcome::done;
-  std::string failure;       // describes the step that failed
-  std::string file_trouble;  // explains why samples could not be written
+  std::string failure;     // describes the step that failed
+  std::string file_error;  // explains why samples could not be written
   double wall_seconds = 0;
   std::int64_t steps_taken = 0;
 };
@@ -43,6 +43,6 @@ InvariantSummary invariant_summary(const InvariantInfo& info, InvariantExcursion
 /// @param turns null: nothing watched for steps that are too long
 Summary summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                    const RunCertificate* certificate = nullptr, const Measures* measures = nullptr,
-                   const TurnWatch* turns = nullptr);
+                   const TurningPointObserver* turns = nullptr);
 
 }  // namespace hamflow

@@ -395,7 +395,7 @@ void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, c
     }
     const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
                             .section = true,
-                            .stroboscopic = sweep.common().section->by_time_alone};
+                            .stroboscopic = sweep.common().section->is_stroboscopic};
     const std::string refused = refused_figure("section", facts);
     if (!refused.empty()) throw Rejection(option_name("figure"), refused);
     return;

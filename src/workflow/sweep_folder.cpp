@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 /// Returns the differences from the sweep in the folder that forbid resuming.
-std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
+std::vector<Complaint> differences_of(const Sweep& sweep, const SweepIdentity& now, const SweepIdentity& before) {
   Checkpoint began;
   began.version = before.version;
   began.keys = before.keys;
@@ -46,7 +46,7 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, 
 
 }  // namespace
 
-SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
+SweepIdentity head_of(const Sweep& sweep, const SweepRequest& request) {
   const Checkpoint of_scenario = first_checkpoint(sweep.common(), "");
   return {.version = of_scenario.version,
           .keys = of_scenario.keys,
@@ -61,14 +61,14 @@ SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
 
 SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path folder, Existing existing)
     : sweep_(sweep), folder_(folder_of(request.shard, folder), sweep_folder(), existing) {
-  SweepPast past;
+  StoredSweep past;
   past.head = head_of(sweep, request);
   if (existing == Existing::replace && request.shard.count == 1 && !shard_journals(folder).empty()) {
     throw FileError("found shards of a sweep in " + folder.string() + ", which " + option_name("force") +
                     " does not replace; remove them, or give another " + option_name("out"));
   }
   if (folder_.resumes()) {
-    SweepPast found = read_journal(folder_ / members_file);
+    StoredSweep found = read_journal(folder_ / members_file);
     wrong_ = differences_of(sweep, past.head, found.head);
     if (!wrong_.empty()) return;
     past.members = std::move(found.members);
@@ -90,12 +90,12 @@ SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path fol
 }
 
 /// Restores members that are finished in other journals of the sweep, of other shards or of the whole.
-void SweepFolder::take_others(const SweepHead& head, const fs::path& whole) {
+void SweepFolder::take_others(const SweepIdentity& head, const fs::path& whole) {
   std::vector<fs::path> journals = shard_journals(whole);
   journals.push_back(whole / members_file);
   for (const fs::path& file : journals) {
     if (file == folder_ / members_file || !fs::exists(file)) continue;
-    SweepPast found = read_journal(file);
+    StoredSweep found = read_journal(file);
     if (!differences_of(sweep_, head, found.head).empty()) {
       throw FileError(file.string() +
                       " belongs to another sweep; allowed shards of one scenario with the same varied "
@@ -113,7 +113,7 @@ void SweepFolder::take_others(const SweepHead& head, const fs::path& whole) {
 
 /// Restores finished members of this folder's journal. Those that were finished with another number of steps are run
 /// again from the start.
-void SweepFolder::restore(SweepPast& past) {
+void SweepFolder::restore(StoredSweep& past) {
   std::size_t shorter = 0;
   for (const auto& [member, finished] : past.members) {
     seconds_before_ = std::max(seconds_before_, finished.seconds);
@@ -145,13 +145,13 @@ double SweepFolder::seconds() const {
 
 void SweepFolder::keep(std::size_t member) {
   journal_->append(member, {sweep_.steps_of(member), seconds(), sweep_.rows()[member]});
-  is_behind_ = true;
+  table_is_outdated_ = true;
 }
 
 void SweepFolder::save_if_due() {
   const Clock::time_point now = Clock::now();
-  if (failed_ || !is_behind_ || now - last_ < pause_) return;
-  is_behind_ = false;
+  if (failed_ || !table_is_outdated_ || now - last_ < pause_) return;
+  table_is_outdated_ = false;
   try {
     if (sweep_.shard().count > 1) return journal_->force();
     auto hold = sweep_.hold_rows();

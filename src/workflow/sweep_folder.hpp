@@ -16,7 +16,7 @@
 namespace hamflow {
 
 /// Returns the header that identifies a sweep.
-SweepHead head_of(const Sweep& sweep, const SweepRequest& request);
+SweepIdentity head_of(const Sweep& sweep, const SweepRequest& request);
 
 class SweepFolder {
  public:
@@ -42,8 +42,8 @@ class SweepFolder {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void restore(SweepPast& past);
-  void take_others(const SweepHead& head, const std::filesystem::path& whole);
+  void restore(StoredSweep& past);
+  void take_others(const SweepIdentity& head, const std::filesystem::path& whole);
   void note_progress();
   void write_table(const SweepTables& tables) const;
 
@@ -56,7 +56,8 @@ class SweepFolder {
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_ = begin_;
   Clock::duration pause_ = std::chrono::milliseconds(250);
-  std::atomic<bool> is_behind_{true};  // a member has finished since the table was written, or no table exists yet
+  std::atomic<bool> table_is_outdated_{
+      true};  // a member has finished since the table was written, or no table exists yet
   bool failed_ = false;
 };
 

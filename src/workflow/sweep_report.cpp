@@ -44,9 +44,9 @@ std::vector<MemberFailure> failures_of(const Sweep& sweep) {
 /// Returns the warnings for all members together. Only a run of a single member warns about a long dt or a fall into
 /// the centre.
 std::vector<Warning> sweep_warnings(const Sweep& sweep) {
-  const auto is_nonsense = [](const MemberRow& row) { return row.nonsense; };
-  const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_nonsense);
-  const auto count = std::count_if(first, sweep.rows().end(), is_nonsense);
+  const auto is_meaningless = [](const MemberRow& row) { return row.nonsense; };
+  const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_meaningless);
+  const auto count = std::count_if(first, sweep.rows().end(), is_meaningless);
   if (count == 0) return {};
   return {
       {"energy_error",
@@ -99,7 +99,7 @@ Named<double> columns_of_member(const Sweep& sweep, std::size_t member) {
   Named<double> all;
   if (sweep.rows()[member].observables.empty() && !sweep.names().of(member).observables.empty())
     return all;  // the member is not finished
-  for (const UnitedName& name : sweep.names().observables()) {
+  for (const MergedName& name : sweep.names().observables()) {
     const double* const x = value_of(sweep, name, member, &MemberRow::observables);
     all.emplace_back(name.name, x == nullptr ? std::numeric_limits<double>::quiet_NaN() : *x);
   }
@@ -131,7 +131,7 @@ SweepRow sweep_row(const Sweep& sweep, std::size_t member) {
   all.energy = {with_digits(row.energy.initial, row.digits.initial_energy),
                 with_digits(row.energy.final, row.digits.energy), row.energy.max_error, row.energy.scale()};
   const MemberNames& names = sweep.names().of(member);
-  for (const UnitedName& invariant : sweep.names().invariants()) {
+  for (const MergedName& invariant : sweep.names().invariants()) {
     const InvariantExcursion* const seen = value_of(sweep, invariant, member, &MemberRow::invariants);
     auto& entry = all.invariants.emplace_back(invariant.name, std::nullopt).second;
     if (seen == nullptr) continue;

@@ -54,7 +54,7 @@ bool decides_columns(const std::string& path) {
 
 /// For a gas, adds one warning with the number of finished members in which particles may have passed through each
 /// other. Its details are those of the first such member.
-void add_passing(const Sweep& sweep, const SweepRequest& request, std::vector<Warning>& warnings) {
+void add_passing_particles(const Sweep& sweep, const SweepRequest& request, std::vector<Warning>& warnings) {
   if (!sweep.common().problem->particles) return;
   MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
   std::size_t count = 0;
@@ -155,11 +155,11 @@ class ScenarioSweep::Impl {
     Varied varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
     how.observables_of = sweep_columns;
-    how.is_nonsense = [](const Scenario& scenario, const MemberRow& row) {
+    how.is_meaningless = [](const Scenario& scenario, const MemberRow& row) {
       Frame end;
       end.q = row.q;
       end.p = row.p;
-      return is_energy_nonsense(scenario, row.energy, end);
+      return is_energy_meaningless(scenario, row.energy, end);
     };
     sweep.emplace(request.text, request.name, request.sets, std::move(varied), how);
     complaints = sweep->complaints();
@@ -211,7 +211,7 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
 
 std::vector<std::byte> ScenarioSweep::finished_members() const {
   const Sweep& sweep = *impl_->sweep;
-  SweepPast past{.head = head_of(sweep, impl_->request)};
+  StoredSweep past{.head = head_of(sweep, impl_->request)};
   for (std::size_t member = impl_->request.shard.index; member < sweep.members();
        member += impl_->request.shard.count) {
     const MemberRow& row = sweep.rows()[member];
@@ -222,8 +222,8 @@ std::vector<std::byte> ScenarioSweep::finished_members() const {
 
 void ScenarioSweep::take(std::span<const std::byte> finished_members) {
   Sweep& sweep = *impl_->sweep;
-  SweepPast past = journal_in(finished_members, "the result of a shard");
-  const SweepHead own = head_of(sweep, impl_->request);
+  StoredSweep past = journal_in(finished_members, "the result of a shard");
+  const SweepIdentity own = head_of(sweep, impl_->request);
   if (past.head.version != own.version) {
     throw Error("found members computed by hamflow " + past.head.version + "; allowed hamflow " + own.version +
                 ", since results can depend on the version");
@@ -250,7 +250,7 @@ SweepReport ScenarioSweep::report() {
   SweepReport report;
   SweepSummary& summary = report.summary;
   summary = sweep_summary(sweep, seconds, impl_->stopped || sweep.members_left() > 0, !folder);
-  add_passing(sweep, impl_->request, summary.warnings);
+  add_passing_particles(sweep, impl_->request, summary.warnings);
   report.status = summary.status;
   report.json = sweep_json(summary, false);
   report.text = sweep_text(summary);

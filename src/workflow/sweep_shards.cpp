@@ -118,7 +118,7 @@ SweepRequest stored_sweep(const fs::path& folder) {
     throw FileError("found no sweep in " + folder.string() + "; allowed a folder with members.bin, or with folders " +
                     "shard-INDEX-of-COUNT");
   }
-  SweepHead head = read_journal(journals.front()).head;
+  SweepIdentity head = read_journal(journals.front()).head;
   return {.text = std::move(head.text),
           .name = std::move(head.name),
           .sets = std::move(head.sets),

@@ -37,10 +37,10 @@ double period_of_orbit(const OrbitSummary& orbit) {
 /// Returns the mean time between bounces off the wall that was hit most often. The fastest oscillation has at most this
 /// period. It also counts several bounces within one step, which the states at the two ends of the step do not show.
 /// @param length time of all steps, or more
-std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, double length) {
-  std::optional<FastestTurns> fastest;
+std::optional<FastestOscillation> between_bounces(std::span<const WallCount> walls, double length) {
+  std::optional<FastestOscillation> fastest;
   for (const WallCount& wall : walls) {
-    if (wall.bounces < static_cast<std::int64_t>(TurnWatch::fewest_periods)) continue;
+    if (wall.bounces < static_cast<std::int64_t>(TurningPointObserver::fewest_periods)) continue;
     const double period = length / static_cast<double>(wall.bounces);
     if (!fastest || period < fastest->period) fastest = {period, 0, wall.coordinate};
   }
@@ -49,7 +49,7 @@ std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, do
 
 /// Returns whether H does not depend on the coordinates, judged from states between the start and the end. If so, every
 /// step is exact, whatever its size, unless a wall rejects steps or is soft.
-bool flies_freely(const Scenario& scenario, const Frame& end) {
+bool is_free_motion(const Scenario& scenario, const Frame& end) {
   const auto& walls = scenario.request.walls;
   if (walls && (walls->rule == WallRule::reject || walls->rule == WallRule::soft)) return false;
   const std::vector<double>& start = scenario.start_q;
@@ -99,10 +99,10 @@ void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::v
 }
 
 /// The springs of tao2 and tao4 rotate the copies by 2 omega dt in a step, and the error grows as omega dt^order.
-constexpr double most_turn_of_springs = 0.25;
+constexpr double most_spring_rotation = 0.25;
 
 /// Returns omega dt, for a method that carries a second copy of the state.
-double turn_of_springs(const Scenario& scenario) {
+double spring_rotation(const Scenario& scenario) {
   const MethodSpec& method = scenario.request.method;
   const std::vector<OptionInfo>& options = find_method(method.name).family->options;
   const auto springs =
@@ -114,19 +114,19 @@ double turn_of_springs(const Scenario& scenario) {
 
 void add_fast_springs(const Scenario& scenario, std::vector<Warning>& all) {
   if (!describe(scenario.request.method).carries_copy) return;
-  const double turn = turn_of_springs(scenario);
-  if (!(turn > most_turn_of_springs)) return;
+  const double turn = spring_rotation(scenario);
+  if (!(turn > most_spring_rotation)) return;
   all.push_back({"long_step", fmt::format("omega dt = {:.3g} is above 1/4, so the springs between the two copies of "
                                           "the state are too fast for this step; try dt = {:.2g} or less",
-                                          turn, scenario.dt * most_turn_of_springs / turn)});
+                                          turn, scenario.dt * most_spring_rotation / turn)});
 }
 
 /// Warns if the two copies of the state in tao2 and tao4 have separated. The method conserves the energy of both copies
 /// together, so a large energy error of (q, p) indicates that they have. The run is repeated in double until the copies
 /// have separated.
 /// @param size size of the energy
-void add_parted_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps,
-                       std::vector<Warning>& all) {
+void add_separated_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps,
+                          std::vector<Warning>& all) {
   constexpr double least_error = 0x1p-8;  // relative energy error; it is smaller as long as the copies stay together
   constexpr double most = 0x1p-5;         // distance of the copies relative to the size of the state
   constexpr std::int64_t most_steps = std::int64_t{1} << 22U;
@@ -163,9 +163,9 @@ void add_parted_copies(const Scenario& scenario, const Excursion& energy, double
     sizes.include(state.q, state.p);
     for (const GroupDistance& group : group_distances(groups, sizes, state, frame(1, 3))) {
       if (!(group.relative.value > most)) continue;
-      const bool is_faster_possible = turn_of_springs(scenario) < most_turn_of_springs / 2;
+      const bool is_faster_possible = spring_rotation(scenario) < most_spring_rotation / 2;
       const std::string advice = is_faster_possible
-                                     ? fmt::format("omega = {:.2g}", most_turn_of_springs / std::abs(scenario.dt))
+                                     ? fmt::format("omega = {:.2g}", most_spring_rotation / std::abs(scenario.dt))
                                      : std::string("a smaller dt and a larger omega, with omega dt below 1/4");
       all.push_back(
           {"parted_copies",
@@ -254,8 +254,8 @@ std::optional<Nearest> nearest(const ProblemEntry& problem, const ParticleFacts&
 
 /// Returns whether two particles repel each other so strongly that they cannot pass: on the way to each other the
 /// energy changes by more than their kinetic energy. Through a smooth core they may pass.
-bool has_core(const Request& request, const ProblemEntry& problem, const ParticleFacts& particles,
-              const std::vector<double>& q, const std::vector<double>& p, const Nearest& two) {
+bool cannot_pass(const Request& request, const ProblemEntry& problem, const ParticleFacts& particles,
+                 const std::vector<double>& q, const std::vector<double>& p, const Nearest& two) {
   const std::size_t space = particles.space;
   const auto mass = [&](std::size_t i) { return mass_of(particles, i); };
   std::vector<double> near = q;
@@ -289,7 +289,7 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
   for (const Frame* at : {&start, &end}) {
     const auto two = nearest(problem, particles, at->q);
     if (!two || !(two->distance > 0 && move > two->distance / 2)) continue;
-    if (!has_core(request, problem, particles, at->q, at->p, *two)) continue;
+    if (!cannot_pass(request, problem, particles, at->q, at->p, *two)) continue;
     return fmt::format(
         "a particle moves {:.3g} in a step, and the smallest distance of two is {:.3g}, so they may pass through each "
         "other; try dt = {:.2g} or less",
@@ -315,7 +315,7 @@ std::string overlap_at_start(const Scenario& scenario) {
       two->one + 1, two->other + 1, two->distance, core);
 }
 
-void add_passing(const Scenario& scenario, const Frame& end, std::vector<Warning>& all) {
+void add_passing_particles(const Scenario& scenario, const Frame& end, std::vector<Warning>& all) {
   Frame start;
   start.q = scenario.start_q;
   start.p = scenario.start_p;
@@ -355,8 +355,8 @@ bool has_fallen(const Scenario& scenario, double period, double t) {
 
 }  // namespace
 
-bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
-                        std::optional<double> typically_exchanged) {
+bool is_energy_meaningless(const Scenario& scenario, const Excursion& energy, const Frame& end,
+                           std::optional<double> typically_exchanged) {
   if (scenario.map) return false;
   const double scale = energy.scale_at_start;
   // For a motion at rest the exchanged energy is only rounding.
@@ -370,12 +370,12 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const
   const auto of = [&](const std::vector<double>& q, const std::vector<double>& p) {
     return virial(*scenario.problem, scenario.request.parameters, q, p);
   };
-  const Virial start = of(scenario.start_q, scenario.start_p);
+  const VirialTerms start = of(scenario.start_q, scenario.start_p);
   return !(energy.max_error <= (start.of_q + start.of_p) / 4 || energy.max_error <= 0.01 * of(end.q, end.p).of_p);
 }
 
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
-                                 const TurnWatch* turns, std::optional<double> exchanged) {
+                                 const TurningPointObserver* turns, std::optional<double> exchanged) {
   WatchedMotion motion{.energy = simulation.energy(),
                        .end = {},
                        .orbit = summary.orbit ? &*summary.orbit : nullptr,
@@ -388,7 +388,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summar
     motion.mean_step = std::abs(motion.end.time) / static_cast<double>(motion.steps);
   }
   std::vector<Warning> all = warnings_of(scenario, motion);
-  if (!scenario.map && !flies_freely(scenario, motion.end)) add_long_search(scenario, simulation, all);
+  if (!scenario.map && !is_free_motion(scenario, motion.end)) add_long_search(scenario, simulation, all);
   add_no_numbers(summary, all);
   return all;
 }
@@ -399,7 +399,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   const Excursion& energy = motion.energy;
   const Frame& end = motion.end;
   const double scale = energy.scale_at_start;
-  if (is_energy_nonsense(scenario, energy, end, motion.exchanged)) {
+  if (is_energy_meaningless(scenario, energy, end, motion.exchanged)) {
     all.push_back(
         {"energy_error", fmt::format("the energy error, {:.3g}, {}, so this result of {} is meaningless; try a smaller "
                                      "dt{}",
@@ -417,11 +417,11 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   if (end.step > 0) {
     const auto& exchanged = motion.exchanged;
     const double size = exchanged && *exchanged > 0 ? std::min(*exchanged, scale > 0 ? scale : *exchanged) : scale;
-    add_parted_copies(scenario, energy, size, end.step, all);
+    add_separated_copies(scenario, energy, size, end.step, all);
   }
-  if (motion.turns != nullptr && !flies_freely(scenario, end)) add_long_step(scenario, motion, all);
+  if (motion.turns != nullptr && !is_free_motion(scenario, end)) add_long_step(scenario, motion, all);
   if (end.step > 0) add_fast_springs(scenario, all);
-  if (all.empty() && end.step > 0) add_passing(scenario, end, all);
+  if (all.empty() && end.step > 0) add_passing_particles(scenario, end, all);
   if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
       has_fallen(scenario, motion.orbit->radial_period, end.time)) {
     // The apsidal angle is 0 only on a line. If the orbit falls although it has angular momentum, a little more of it

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/detail/verify/turns.hpp"
+#include "hamflow/detail/verify/turning_points.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/workflow/summary.hpp"
@@ -20,15 +20,15 @@ namespace hamflow {
 /// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary complete except for its warnings   @param turns null: nothing watched for steps that are too long
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
-                                 const TurnWatch* turns, std::optional<double> exchanged = {});
+                                 const TurningPointObserver* turns, std::optional<double> exchanged = {});
 
 /// A motion to be judged, whose end may differ from the current state of the simulation.
 struct WatchedMotion {
   Excursion energy;
   Frame end;
-  const OrbitSummary* orbit = nullptr;  // null: unknown
-  const TurnWatch* turns = nullptr;     // null: nothing watched for steps that are too long
-  std::vector<WallCount> walls{};       // number of bounces off each wall
+  const OrbitSummary* orbit = nullptr;          // null: unknown
+  const TurningPointObserver* turns = nullptr;  // null: nothing watched for steps that are too long
+  std::vector<WallCount> walls{};               // number of bounces off each wall
   std::int64_t steps = 0;
   double mean_step = 0;               // mean of steps of varying length; 0: unknown
   std::optional<double> exchanged{};  // EnergyExchange::typical()
@@ -44,7 +44,7 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
 /// exchanges, which does not depend on a constant in H. If the exchange is zero or unknown, the error is compared with
 /// the scale at the start, unless T and V vanish there by chance.   @param end last state
 /// @param exchanged EnergyExchange::typical(), used if it is known; it is less than Excursion::exchanged
-bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
-                        std::optional<double> exchanged = {});
+bool is_energy_meaningless(const Scenario& scenario, const Excursion& energy, const Frame& end,
+                           std::optional<double> exchanged = {});
 
 }  // namespace hamflow

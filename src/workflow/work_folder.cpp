@@ -93,7 +93,7 @@ Names found_in(const fs::path& folder, const FolderKind& kind) {
 }
 
 /// Returns the names of the finished files, such as "run.h5, figures/orbit.svg"; empty if there are none.
-std::string left_in(const fs::path& folder, const FolderKind& kind) {
+std::string finished_files_in(const fs::path& folder, const FolderKind& kind) {
   Names found = found_in(folder, kind);
   std::erase_if(found, [](const fs::path& name) { return name.extension() == ".new"; });
   return joined(found, [](const fs::path& name) { return name.string(); });
@@ -179,7 +179,7 @@ WorkFolder::WorkFolder(fs::path folder, const FolderKind& kind, Existing existin
         "; allowed a folder of a " + kind.name + ", or another " + option_name("out"));
   }
   if (existing == Existing::replace) return;
-  if (const std::string left = left_in(path_, kind); !left.empty()) {
+  if (const std::string left = finished_files_in(path_, kind); !left.empty()) {
     throw FileError("cannot resume: " + path_.string() + " contains " + left + ", but no " + kind.resumes_from +
                     "; give another " + option_name("out") + ", or " + option_name("force") + " to replace the files");
   }

@@ -19,14 +19,14 @@ TEST(Gnuplot, IsEndedWhenItTakesTooLong) {
 
 TEST(Gnuplot, IsEndedWhenAskedTo) {
   int asked = 0;
-  const WhileDrawing watch([&] { return ++asked < 3; });
+  const StopDrawingScope watch([&] { return ++asked < 3; });
   EXPECT_THROW((void)run_gnuplot({"pause 1000\n"}), DrawingStopped);
   EXPECT_EQ(asked, 3);
 }
 
 TEST(Gnuplot, IsNotAskedAfterwards) {
   {
-    const WhileDrawing watch([] { return false; });
+    const StopDrawingScope watch([] { return false; });
   }
   EXPECT_NE(run_gnuplot({"set terminal svg\nplot [0:1] x\n"}).at(0).find("<svg"), std::string::npos);
 }

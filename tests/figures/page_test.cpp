@@ -12,8 +12,8 @@
 #include <regex>
 #include <sstream>
 
+#include "draw_style.hpp"
 #include "hamflow/core/error.hpp"
-#include "ink.hpp"
 #include "page_size.hpp"
 #include "parameter_map.hpp"
 #include "script.hpp"

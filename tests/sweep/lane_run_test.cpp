@@ -16,15 +16,15 @@ constexpr std::int64_t steps = 400;
 
 /// Everything that can be measured of one member.
 struct Measured {
-  LyapunovWatch exponents;
-  LyapunovWatch largest;
-  MonodromyWatch derivative;
+  LyapunovObserver exponents;
+  LyapunovObserver largest;
+  MonodromyObserver derivative;
   std::vector<SectionPoint> points{};
 
   Measured(const StepMapSource& map, double h)
       : exponents(map, h, steps), largest(map, h, steps, 1), derivative(map, h, steps) {}
   std::vector<Observer*> observers() { return {&exponents, &largest, &derivative}; }
-  std::vector<TangentWatch*> tangents() { return {&exponents, &largest, &derivative}; }
+  std::vector<TangentObserver*> tangents() { return {&exponents, &largest, &derivative}; }
   auto take() {
     return [this](const SectionPoint& point) { points.push_back(point); };
   }

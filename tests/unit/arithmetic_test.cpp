@@ -61,7 +61,7 @@ TEST(Compensated, AddingSoonerIsAddingBitForBit) {
     auto a = s;
     auto b = s;
     Axis::add(a, r);
-    Axis::add_sooner(b, r);
+    Axis::add_without_branch(b, r);
     ASSERT_EQ(std::bit_cast<std::uint64_t>(a.high), std::bit_cast<std::uint64_t>(b.high)) << s.high << ' ' << r;
     ASSERT_EQ(std::bit_cast<std::uint64_t>(a.low), std::bit_cast<std::uint64_t>(b.low))
         << s.high << " + " << s.low << " + " << r;

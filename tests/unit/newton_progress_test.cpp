@@ -118,12 +118,12 @@ TEST(NewtonProgress, KnowsWhetherItBeganFarAway) {
 
 TEST(NewtonProgress, GoesOnWhileHidingTermsShrink) {
   NewtonProgress<double> progress;
-  EXPECT_TRUE(progress.goes_on_with(100));
-  EXPECT_TRUE(progress.goes_on_with(100));
-  EXPECT_FALSE(progress.goes_on_with(100)) << "twice whatever they are";
-  EXPECT_TRUE(progress.goes_on_with(49));
-  EXPECT_FALSE(progress.goes_on_with(49));
-  EXPECT_TRUE(progress.goes_on_with(1));
+  EXPECT_TRUE(progress.continues_with_terms(100));
+  EXPECT_TRUE(progress.continues_with_terms(100));
+  EXPECT_FALSE(progress.continues_with_terms(100)) << "twice whatever they are";
+  EXPECT_TRUE(progress.continues_with_terms(49));
+  EXPECT_FALSE(progress.continues_with_terms(49));
+  EXPECT_TRUE(progress.continues_with_terms(1));
 }
 
 TEST(NewtonProgress, GuessesAreTrustedAfterThreeGoodOnesInARow) {

@@ -50,8 +50,8 @@ struct Watches {
   std::vector<SectionPoint> points;
   EnergyBlocks blocks;
   SectionFinder section;
-  LyapunovWatch exponents, first_exponent;
-  MonodromyWatch derivative;
+  LyapunovObserver exponents, first_exponent;
+  MonodromyObserver derivative;
 };
 
 void go_to(Simulation& simulation, Watches& watches, std::int64_t step) {

@@ -292,10 +292,10 @@ TEST(RunDrift, HugeAndBrokenEnergies) {
                DriftClass::bounded);
 }
 
-TEST(Swings, CountWhatTurnsBack) {
+TEST(OscillationCounter, CountWhatTurnsBack) {
   constexpr double period = 100;
   const auto watched = [](auto&& x, std::int64_t steps, std::int64_t apart = 1) {
-    Swings swings;
+    OscillationCounter swings;
     for (std::int64_t step = 0; step <= steps; step += apart) swings.look(step, x(static_cast<double>(step)));
     return swings;
   };
@@ -307,13 +307,13 @@ TEST(Swings, CountWhatTurnsBack) {
   EXPECT_FALSE(watched([](double) { return 1.0; }, 1000).period(1000));                 // does not move
   EXPECT_NEAR(watched([&](double t) { return wave(t) + 0.2 * wave(9 * t); }, 1000).period(1000).value(), period, 9);
   EXPECT_EQ(watched(wave, 60).period(60).value(), 120);  // one turn: long, and no more is known
-  const Swings widening = watched([&](double t) { return t * t * t * wave(t); }, 450);
+  const OscillationCounter widening = watched([&](double t) { return t * t * t * wave(t); }, 450);
   EXPECT_GT(widening.earlier_periods(), 1);
 }
 
 /// As a run looks at it: every step at first, later once in blocks that are as long as the run is many times 256 steps.
 template <class F>
-Swings seen_by_a_run(F&& x, std::int64_t steps) {
+OscillationCounter seen_by_a_run(F&& x, std::int64_t steps) {
   EnergyBlocks watch;
   Frame frame;
   for (frame.step = watch.next_due(0); frame.step <= steps; frame.step = watch.next_due(frame.step + 1)) {
@@ -324,7 +324,7 @@ Swings seen_by_a_run(F&& x, std::int64_t steps) {
   return watch.state().swings.front();
 }
 
-TEST(Swings, PeriodsAreNotCountedBeyondTheLastTurnNorBeforeTheFirst) {
+TEST(OscillationCounter, PeriodsAreNotCountedBeyondTheLastTurnNorBeforeTheFirst) {
   constexpr double period = 40;
   const auto wave = [](double t) { return std::cos(2 * std::numbers::pi * t / period); };
   for (const double last : {4.0, 10.0, 30.0}) {  // periods, of 1000
@@ -339,7 +339,7 @@ TEST(Swings, PeriodsAreNotCountedBeyondTheLastTurnNorBeforeTheFirst) {
   EXPECT_LE(late->periods, 16);
 }
 
-TEST(Swings, WhatSamplesAreTooFarApartForIsNotOver) {
+TEST(OscillationCounter, WhatSamplesAreTooFarApartForIsNotOver) {
   // A sine, and a peak that lasts a twentieth of its period: after a thousand periods both are met by chance alone.
   const auto phase = [](double t) { return 2 * std::numbers::pi * t / 40.37; };
   for (const std::int64_t steps : {400, 3000, 40000, 1000000}) {
@@ -353,7 +353,7 @@ TEST(Swings, WhatSamplesAreTooFarApartForIsNotOver) {
   }
 }
 
-TEST(Swings, WhatWidensSlowlyIsCountedThrough) {
+TEST(OscillationCounter, WhatWidensSlowlyIsCountedThrough) {
   // A coordinate of an eccentric orbit whose axis turns: 1000 periods, of which few are sampled when it has doubled.
   const auto wide = [](double t) { return (1 + 1.3e-5 * t) * std::cos(2 * std::numbers::pi * t / 113.1); };
   const auto seen = seen_by_a_run(wide, 113100).seen(113100);
@@ -361,7 +361,7 @@ TEST(Swings, WhatWidensSlowlyIsCountedThrough) {
   EXPECT_NEAR(seen->periods, 1000, 50);
 }
 
-TEST(Swings, WhatSlowsDownIsCountedByItsTurns) {
+TEST(OscillationCounter, WhatSlowsDownIsCountedByItsTurns) {
   // 20 periods of 40 steps, then four of 16000.
   const auto slowing = [](double t) {
     return std::cos(2 * std::numbers::pi * (t < 800 ? t / 40 : 20 + (t - 800) / 16000));

@@ -271,8 +271,8 @@ TEST(Lyapunov, WatchedRunGivesTheSameAndKeepsItsBits) {
   const std::int64_t steps = 1001;
   auto watched = simulate(HenonHeiles<double>(), Stv4{}, {z[0], z[1]}, {z[2], z[3]}, 0.1);
   auto alone = watched;
-  LyapunovWatch lyapunov(map, 0.1, steps);
-  MonodromyWatch product(map, 0.1, steps);
+  LyapunovObserver lyapunov(map, 0.1, steps);
+  MonodromyObserver product(map, 0.1, steps);
   Observer* const observers[] = {&lyapunov, &product};
   ASSERT_EQ(run(watched, steps, observers), Outcome::done);
   ASSERT_EQ(alone.advance(steps), Outcome::done);

@@ -1,9 +1,9 @@
 // Long steps are found from the turns of coordinates, and from nothing that only looks like turns.
-#include "hamflow/detail/verify/turns.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "hamflow/detail/verify/turning_points.hpp"
 
 namespace hamflow {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 using Coordinates = std::vector<double> (*)(double t);
 
 /// What a run of that many steps shows of q(t).
-TurnWatch watched(Coordinates q, double dt, std::int64_t steps) {
-  TurnWatch watch(dt);
+TurningPointObserver watched(Coordinates q, double dt, std::int64_t steps) {
+  TurningPointObserver watch(dt);
   for (std::int64_t step = watch.next_due(0); step <= steps; step = watch.next_due(step + 1)) {
     Frame frame;
     frame.step = step;
@@ -70,7 +70,7 @@ TEST(Turns, WhatGrowsOrStandsStillIsNoOscillation) {
 
 TEST(Turns, LongRunsAreRarelyLookedAt) {
   const auto circle = [](double t) { return std::vector<double>{std::cos(t)}; };
-  TurnWatch watch(1);
+  TurningPointObserver watch(1);
   int looks = 0;
   for (std::int64_t step = watch.next_due(0); step <= 1'000'000'000; step = watch.next_due(step + 1)) {
     Frame frame;
@@ -87,11 +87,11 @@ TEST(Turns, ARunThatGoesOnSeesTheSame) {
   const auto whole = watched(late, 1, 400).fastest();
   ASSERT_TRUE(whole);
   for (const std::int64_t cut : {0, 30, 64, 127, 150, 192, 300}) {
-    TurnWatch first = watched(late, 1, cut);
+    TurningPointObserver first = watched(late, 1, cut);
     Writer out;
     first.archive(out);
     const auto bytes = out.take();
-    TurnWatch second(1);
+    TurningPointObserver second(1);
     Reader in(bytes);
     second.archive(in);
     in.finish();
@@ -107,7 +107,7 @@ TEST(Turns, ARunThatGoesOnSeesTheSame) {
 }
 
 TEST(Turns, AnotherStepLengthBeginsAnew) {
-  TurnWatch watch(1);
+  TurningPointObserver watch(1);
   Frame frame;
   const auto walk = [&](std::int64_t from, std::int64_t to, double omega) {
     for (std::int64_t step = watch.next_due(from); step <= to; step = watch.next_due(step + 1)) {

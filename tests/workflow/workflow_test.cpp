@@ -165,14 +165,15 @@ TEST_F(Workflow, ASummaryHoldsTheNumbersOfAChaoticRun) {
                                                     { name = "late", expression = "t - 120.05", action = "stop" }])",
                                      R"(output.observables={ square = "q1^2" })"});
   const auto simulation = make_simulation(chaotic.request);
-  LyapunovWatch lyapunov(chaotic.problem->step_map(chaotic.request, 2), chaotic.dt, chaotic.steps);
-  MonodromyWatch derivative(chaotic.problem->step_map(chaotic.request, 2), chaotic.dt, chaotic.steps);
+  LyapunovObserver lyapunov(chaotic.problem->step_map(chaotic.request, 2), chaotic.dt, chaotic.steps);
+  MonodromyObserver derivative(chaotic.problem->step_map(chaotic.request, 2), chaotic.dt, chaotic.steps);
   Tally tally;
   Observer* const observers[] = {&lyapunov, &derivative, &tally};
   ASSERT_EQ(run(*simulation, 1201, observers), Outcome::done);
   Frame end;
   simulation->look(end);
-  for (TangentWatch* watch : {static_cast<TangentWatch*>(&lyapunov), static_cast<TangentWatch*>(&derivative)}) {
+  for (TangentObserver* watch :
+       {static_cast<TangentObserver*>(&lyapunov), static_cast<TangentObserver*>(&derivative)}) {
     if (watch->step() < end.step) (void)watch->observe(end);
   }
 
@@ -611,7 +612,7 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
 
   Session session(scenario());
   ASSERT_EQ(session.advance(10), Outcome::done);
-  session.set_step_length("0.05");
+  session.set_step_size("0.05");
   ASSERT_EQ(session.advance(10), Outcome::done);
   const SampleKeeper samples(1, 2);
   save_session(session, samples, {}, folder_ / "steered", false);

@@ -14,7 +14,7 @@
 #include "../experiment.hpp"
 #include "../late_motions.hpp"
 #include "../time_panels.hpp"
-#include "../tube_watch.hpp"
+#include "../tube_runs.hpp"
 #include "../two_to_one.hpp"
 
 namespace hamflow::reproduction {

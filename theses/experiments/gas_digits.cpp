@@ -8,11 +8,11 @@
 #include <optional>
 #include <utility>
 
-#include "../chance.hpp"
 #include "../experiment.hpp"
 #include "../gas_listing.hpp"
 #include "../gas_runs.hpp"
 #include "../next_sample.hpp"
+#include "../sign_test.hpp"
 #include "../t_tube_runs.hpp"
 
 namespace hamflow::reproduction {

@@ -41,7 +41,7 @@ figures::Panel within_the_circle(const std::vector<Places>& all) {
 /// 1200 steps with the text's and the listing's step length: a particle is outside long before.
 void claim_inside(Study& study, GasRun run) {
   // Of several starts that which stays longest: the thesis' own random numbers are not known. So many that stay no
-  // longer leave fewer than one in twenty that does (chance.hpp); a long step ends all of them soon.
+  // longer leave fewer than one in twenty that does (sign_test.hpp); a long step ends all of them soon.
   constexpr int enough = 59;
   const int starts = run.dt == "0.01" ? enough : study.sized(1, enough, enough);
   const auto steps_of = [&](const Return& all) { return all.done ? run.steps : all.failed_at; };

@@ -9,7 +9,7 @@
 
 #include "../experiment.hpp"
 #include "../time_panels.hpp"
-#include "../tube_watch.hpp"
+#include "../tube_runs.hpp"
 
 namespace hamflow::reproduction {
 

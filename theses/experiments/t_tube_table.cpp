@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "../experiment.hpp"
-#include "../followers.hpp"
+#include "../trend_counts.hpp"
 #include "../tube_changes.hpp"
 
 namespace hamflow::reproduction {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../chance.hpp"
 #include "../experiment.hpp"
 #include "../scenarios.hpp"
+#include "../sign_test.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
 #include "../two_body_programs.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "chance.hpp"
+#include "sign_test.hpp"
 
 namespace hamflow {
 namespace {

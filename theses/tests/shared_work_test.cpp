@@ -70,7 +70,7 @@ TEST(SharedWork, APieceThatFailsIsToldToItsOwnerAlone) {
 
 TEST(SharedWork, WaitsForNoThreadThatWasNeverStarted) {
   SharedWork work(3);
-  work.go_without(2);
+  work.reduce_threads(2);
   work.help();
 }
 

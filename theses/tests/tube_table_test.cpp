@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "followers.hpp"
+#include "trend_counts.hpp"
 #include "tube_changes.hpp"
 
 namespace hamflow::reproduction::t_tube_table {

@@ -30,7 +30,7 @@ struct Compensated {
     static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
     /// As add(), but the sum r + low is exact, because its rounding error had a mean other than 0 on some orbits
     /// (docs/design/cg.md).
-    static constexpr void add_keeping(Stored& s, const Real& r) {
+    static constexpr void add_with_exact_low(Stored& s, const Real& r) {
       const R increment = r + s.low;
       const R of_low = increment - r;
       const R lost = (r - (increment - of_low)) + (s.low - of_low);
@@ -56,7 +56,7 @@ struct Compensated {
     /// Gives the bits of add() without a branch, with low available two operations earlier. The error of a sum is the
     /// smaller summand minus its part in the sum [Dekker1971, (4.14)]; it is computed for both orders, then one is
     /// selected. If the error is 0, add() gives +0, so zeros are added here to turn -0 into +0.
-    static void add_sooner(Stored& s, const Real& r) {
+    static void add_without_branch(Stored& s, const Real& r) {
       if constexpr (std::is_floating_point_v<R>) {
         const R increment = r + s.low;
         const R sum = s.high + increment;

@@ -100,7 +100,7 @@ class ForceGradientStep {
     return Outcome::done;
   }
 
-  static constexpr bool remembers_positions_alone = true;
+  static constexpr bool memory_depends_on_positions_only = true;
   /// Mirrors the kept kick after the i-th position was mirrored.
   void mirror_kept(std::size_t i) {
     if (i < force_.size()) force_[i] = -force_[i];

@@ -62,8 +62,8 @@ constexpr bool has_typed_kernel() {
 
 /// Whether the memory of a stepper depends only on positions, so that the sign of a momentum may be changed.
 template <class Stepper>
-constexpr bool remembers_positions_alone() {
-  return requires { Stepper::remembers_positions_alone; };
+constexpr bool memory_depends_on_positions_only() {
+  return requires { Stepper::memory_depends_on_positions_only; };
 }
 
 /// Whether a step in double can be recorded (src/engine/recorded_step.hpp).

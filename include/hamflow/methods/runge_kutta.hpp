@@ -134,7 +134,7 @@ class RungeKutta {
     return Outcome::done;
   }
 
-  static constexpr bool remembers_positions_alone = true;
+  static constexpr bool memory_depends_on_positions_only = true;
   void invalidate() {}
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
   template <class Archive>

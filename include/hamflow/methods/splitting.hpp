@@ -132,7 +132,7 @@ struct StepLengthOf<A> {
 /// computed. The operations are the same, but come after those of the force in program order, so that they do not
 /// compete with operations on which the next force depends.
 template <Arithmetic A, std::size_t n>
-struct Unsettled {
+struct DeferredAdditions {
   Vector<typename A::Axis::Pending, n> q{};
   Vector<typename A::Axis::Pending, n> p{};
 
@@ -147,7 +147,7 @@ struct Unsettled {
     }
   }
 };
-struct NothingUnsettled {};
+struct NoDeferredAdditions {};
 
 /// One step of a splitting method.
 /// @tparam Links number of drifts in a step if known at compile time (the loop is then unrolled), else any_length
@@ -193,7 +193,7 @@ class Splitting {
   /// that state and kick stay in registers.
   [[gnu::always_inline]] Outcome step(const P& problem, const Length& h, PhasePoint<A, n>& z) {
     auto&& f = working_copy(kick_);
-    [[maybe_unused]] std::conditional_t<defers, Unsettled<A, n>, NothingUnsettled> late;
+    [[maybe_unused]] std::conditional_t<defers, DeferredAdditions<A, n>, NoDeferredAdditions> late;
     if constexpr (n == dynamic) {
       if (f.size() == 0) f = zeros<Increment, n>(z.p.size());
     }
@@ -227,7 +227,7 @@ class Splitting {
   }
 
   /// Call this if steps vary in length: the force is then kept without the factor, which differs from step to step.
-  void take_any_steps() { force_takes_factor_ = velocity_takes_factor_ = false; }
+  void keep_unscaled_force() { force_takes_factor_ = velocity_takes_factor_ = false; }
 
   /// Computes the kick with which the next step begins, if it is kept.
   void prepare(const P& problem, const Length& h, PhasePoint<A, n>& z) {
@@ -240,7 +240,7 @@ class Splitting {
     kept_factor_ = within(factor);
     kick_is_current_ = true;
   }
-  static constexpr bool remembers_positions_alone = true;
+  static constexpr bool memory_depends_on_positions_only = true;
   /// Mirrors the kept kick after the i-th position was mirrored.
   void mirror_kept(std::size_t i) {
     if (i < kick_.size()) kick_[i] = -kick_[i];
@@ -350,9 +350,10 @@ class Splitting {
   [[gnu::always_inline]] void last_kick(const Length& factor, const Vector<Increment, n>& f,
                                         PhasePoint<A, n>& z) const {
     if constexpr (defers) {
-      for (std::size_t i = 0; i < n; ++i) A::Axis::add_sooner(z.p[i], factor_within() ? f[i] : Real(factor * f[i]));
+      for (std::size_t i = 0; i < n; ++i)
+        A::Axis::add_without_branch(z.p[i], factor_within() ? f[i] : Real(factor * f[i]));
     } else {
-      NothingUnsettled nothing;
+      NoDeferredAdditions nothing;
       kick(factor, f, z, nothing);
     }
   }

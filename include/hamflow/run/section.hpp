@@ -29,9 +29,9 @@ struct Section {
   ExpressionInDigits in_digits{};               // the expression, for runs beyond double
   int direction = 1;                            // 1: x increases along the run, -1: it decreases, 0: both
   std::optional<StateExpression> expression{};  // x, instead of the coordinate
-  bool by_time_alone = false;                   // x is an expression of t, and the points are stroboscopic
+  bool is_stroboscopic = false;                 // x is an expression of t, and the points are stroboscopic
   bool by_steps = false;    // for a map: the point is the state after the step that passes the value
-  bool every_step = false;  // for a map: every step is a point; by_steps and by_time_alone are true, too
+  bool every_step = false;  // for a map: every step is a point; by_steps and is_stroboscopic are true, too
 };
 
 struct SectionPoint {

@@ -55,7 +55,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   /// equal steps (detail/methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
   [[gnu::cold]] void vary_steps(typename State::Monitor monitor) {
     State::begin_varying(std::move(monitor));
-    if constexpr (requires { method_.take_any_steps(); }) method_.take_any_steps();
+    if constexpr (requires { method_.keep_unscaled_force(); }) method_.keep_unscaled_force();
     method_.invalidate();
   }
 

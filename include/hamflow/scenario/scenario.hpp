@@ -65,8 +65,8 @@ struct Scenario {
 struct Reading {
   std::optional<Scenario> scenario;  // set if there are no complaints
   std::vector<Complaint> complaints;
-  std::string no_start;               // explains why no start has the requested energy or component
-  std::optional<Scenario> startless;  // scenario of a member of a sweep whose only error is no_start
+  std::string no_start;                            // explains why no start has the requested energy or component
+  std::optional<Scenario> scenario_without_start;  // scenario of a member of a sweep whose only error is no_start
 };
 
 /// @param sets PATH=VALUE texts that override the file   @throws FileError if the file cannot be read

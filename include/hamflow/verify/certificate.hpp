@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "hamflow/detail/verify/drift.hpp"
+#include "hamflow/detail/verify/oscillation_counter.hpp"
 #include "hamflow/detail/verify/state_units.hpp"
-#include "hamflow/detail/verify/swings.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/verify/long_number.hpp"
@@ -47,8 +47,8 @@ struct EnergyBlockState {
   std::vector<double> energies;  // one for each block, in order
   // the same energies with all digits, if the arithmetic has more digits than double; else empty
   std::vector<std::string> digits;
-  std::vector<double> magnitudes;  // largest sizes over the samples; observe() lists which
-  std::vector<Swings> swings;      // one for each q, then one for each p
+  std::vector<double> magnitudes;          // largest sizes over the samples; observe() lists which
+  std::vector<OscillationCounter> swings;  // one for each q, then one for each p
   EnergyExchange exchange{};
 
   template <class Archive>
@@ -143,13 +143,13 @@ MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& param
 std::string why_not_reversed(const MomentumParity& parity);
 
 /// q dH/dq| and |p dH/dp|. If T and V are homogeneous, they are about as large as V and T, whatever constant V has.
-struct Virial {
+struct VirialTerms {
   double of_q = 0;
   double of_p = 0;
 };
 /// @param parameters all parameters of the problem
-Virial virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
-              const std::vector<double>& p);
+VirialTerms virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+                   const std::vector<double>& p);
 
 /// What a reversal over a part of a run proves.
 enum class ReversalProof { every_bit, to_rounding, not_reversible, nothing };
@@ -180,13 +180,13 @@ struct ReversalEvidence {
 };
 
 /// Called from time to time. Returns false if the remaining work shall be left out.
-using GoOn = std::function<bool()>;
+using ContinueQuestion = std::function<bool()>;
 
 /// Repeats a part of a run and reverses it. @param period period of the slowest oscillation, in steps; nullopt: no
 /// oscillation was seen
 /// @param steps_taken at least 1
 ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
-                                   std::optional<double> period, const GoOn& go_on = {});
+                                   std::optional<double> period, const ContinueQuestion& go_on = {});
 
 /// Compares the error of each invariant with the error that rounding explains. The terms that the problem declares for
 /// an invariant (InvariantInfo::terms) determine this rounding error.
@@ -212,6 +212,6 @@ struct RunCertificate {
 /// @param steps_taken steps of the run; the reversal repeats a small part of them on another simulation
 /// @param go_on asked during the reversal; nothing else takes steps
 RunCertificate certify(const Request& request, const ProblemEntry& problem, std::unique_ptr<Simulation>& simulation,
-                       const EnergyBlocks& blocks, std::int64_t steps_taken, const GoOn& go_on = {});
+                       const EnergyBlocks& blocks, std::int64_t steps_taken, const ContinueQuestion& go_on = {});
 
 }  // namespace hamflow

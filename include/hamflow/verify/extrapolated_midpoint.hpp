@@ -130,11 +130,11 @@ class ExtrapolatedMidpointMethod {
   }
   /// Returns whether a trial is so far from the scale of the motion that its columns cannot agree. Continuing would
   /// only cost time: the sine of an angle of 10^(10^6) takes seconds in mp.
-  bool is_astray(const Change& change) const {
+  bool is_beyond_limit(const Change& change) const {
     for (std::size_t i = 0; i < change.q.size(); ++i) {
       const double size =
           std::fmax(std::fabs(static_cast<double>(change.q[i])), std::fabs(static_cast<double>(change.p[i])));
-      if (!(size <= far_)) return true;
+      if (!(size <= trial_limit_)) return true;
     }
     return false;
   }
@@ -158,14 +158,14 @@ class ExtrapolatedMidpointMethod {
     combine(before, h, first_, now);
     for (int k = 1; k < parts; ++k) {
       stopped_ = StopQuestion::stop_requested();
-      if (stopped_ || is_astray(now)) break;
+      if (stopped_ || is_beyond_limit(now)) break;
       rate_at(problem, now, rate);
       combine(before, Real(2) * h, rate, after);
       before = now;
       now = after;
     }
-    if (stopped_ || is_astray(now)) {
-      astray_ = true;
+    if (stopped_ || is_beyond_limit(now)) {
+      beyond_limit_ = true;
       return now;
     }
     rate_at(problem, now, rate);
@@ -179,11 +179,11 @@ class ExtrapolatedMidpointMethod {
 
   /// Computes the last row of the table into row_; returns error/tolerance.
   double attempt(const P& problem, const Real& tau) {
-    far_ = limit(tau);
-    astray_ = false;
+    trial_limit_ = limit(tau);
+    beyond_limit_ = false;
     for (int j = 0; j < columns_; ++j) {
       std::vector<Change> next{modified_midpoint(problem, tau, 2 * (j + 1))};
-      if (astray_) return std::numeric_limits<double>::infinity();
+      if (beyond_limit_) return std::numeric_limits<double>::infinity();
       for (int k = 1; k <= j; ++k) {
         const Real ratio = Real(j + 1) / Real(j + 1 - k);
         const Real share = Real(1) / (ratio * ratio - Real(1));
@@ -223,8 +223,8 @@ class ExtrapolatedMidpointMethod {
   V q_, p_;
   Change first_;
   std::vector<Change> row_;
-  double far_ = 0;
-  bool astray_ = false;
+  double trial_limit_ = 0;
+  bool beyond_limit_ = false;
   bool stopped_ = false;
   double proposed_ = 0;
   long long evaluations_ = 0;

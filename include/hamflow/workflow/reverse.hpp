@@ -13,15 +13,15 @@
 namespace hamflow {
 
 /// Error of N bodies after a reversal.   [Sonnleitner2010, p. 72]
-struct ReturnError {
+struct BodyReversalError {
   LongNumber position;      // sqrt(sum |difference|^2)/N
   LongNumber momentum;      // the same for momenta
   LongNumber position_rms;  // sqrt(sum |difference|^2/N)
   LongNumber momentum_rms;  // the same for momenta
 };
 /// Results that only reversals of bodies and particles have.
-struct BodiesReturned {
-  std::optional<ReturnError> error{};               // nullopt: the reversal did not finish
+struct BodyReversalSummary {
+  std::optional<BodyReversalError> error{};         // nullopt: the reversal did not finish
   std::optional<std::int64_t> pair_evaluations{};   // number of pair forces; nullopt: they are not counted
   std::optional<std::int64_t> force_evaluations{};  // nullopt: pairs are counted instead, or no forces were computed
   std::string note{};                               // explains why pairs are not counted; else empty
@@ -48,11 +48,11 @@ struct ReversalSummary {
   std::string turn_hash{};
   std::string end_hash{};
   bool method_reversible = false;
-  bool expected_bit_exact = false;         // problem, method and arithmetic guarantee a bit-exact reversal
-  std::string note{};                      // explains how to read the distance; empty: no note is needed
-  std::optional<BodiesReturned> bodies{};  // nullopt: the problem has no bodies
-  std::vector<Warning> warnings{};         // warnings about the motion itself
-  std::optional<RunError> error{};         // nullopt: the reversal did not fail
+  bool expected_bit_exact = false;              // problem, method and arithmetic guarantee a bit-exact reversal
+  std::string note{};                           // explains how to read the distance; empty: no note is needed
+  std::optional<BodyReversalSummary> bodies{};  // nullopt: the problem has no bodies
+  std::vector<Warning> warnings{};              // warnings about the motion itself
+  std::optional<RunError> error{};              // nullopt: the reversal did not fail
 };
 
 /// Returns the text of reverse.json.

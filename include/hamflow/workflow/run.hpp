@@ -39,7 +39,7 @@ struct RunReport {
   std::string hint;     // after a failure: what can be tried
   std::string details;  // iteration history of an implicit step without a solution
   // explains why a file could not be written; empty: all files were written. The results here are valid in any case
-  std::string file_trouble;
+  std::string file_error;
   std::vector<std::string> warnings{};  // each is "kind: message"
   bool drawing_stopped = false;         // the run ended, but pulse() stopped the drawing of its figures
   bool was_complete = false;            // the run to be resumed was already complete

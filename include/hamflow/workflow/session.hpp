@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "hamflow/detail/verify/turns.hpp"
+#include "hamflow/detail/verify/turning_points.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/workflow/summary.hpp"
@@ -22,7 +22,7 @@ class Session final : public Simulation {
   /// Returns to the start and keeps the current settings.
   void restart();
   /// Changes the step size, a number expression. @throws Error if it is 0 or not a number; then nothing has changed
-  void set_step_length(const std::string& text);
+  void set_step_size(const std::string& text);
   /// Changes the method. Options that are not given keep the value that they had when this method was used before.
   /// @throws Error if the method cannot be used here
   void set_method(const MethodSpec& method);
@@ -41,8 +41,8 @@ class Session final : public Simulation {
   const std::vector<Bounce>& bounces() const { return bounces_; }
 
   /// Observer that finds steps that are too long. The caller runs it together with the other observers.
-  TurnWatch& turns() { return turns_; }
-  const TurnWatch& turns() const { return turns_; }
+  TurningPointObserver& turns() { return turns_; }
+  const TurningPointObserver& turns() const { return turns_; }
 
   Outcome advance(std::int64_t steps) override;
   std::int64_t step() const override;
@@ -73,8 +73,8 @@ class Session final : public Simulation {
   void remember(const MethodSpec& method);
   void change(const Request& next, const std::string& what);
   void refuse_time(const std::string& what) const;
-  void listen();
-  bool wants_bounces() const;
+  void report_bounces();
+  bool records_more_bounces() const;
   void watch_from_here();
   void watch(const Frame& frame);
   void in_session(Frame& frame) const;
@@ -98,7 +98,7 @@ class Session final : public Simulation {
   Effort effort_before_;
   std::vector<WallCount> bounces_before_;
   std::vector<Bounce> bounces_;
-  bool listens_ = false;  // the simulation reports its bounces to the session
+  bool reports_bounces_ = false;  // the simulation reports its bounces to the session
   double initial_energy_ = 0;
   std::string exact_initial_energy_;  // all digits, in arithmetic with more digits than double
   Excursion first_part_;              // range of the energy in the first part
@@ -111,7 +111,7 @@ class Session final : public Simulation {
   std::vector<double> offset_;
   std::vector<double> worst_invariants_;  // one for each invariant
   Frame scratch_;
-  TurnWatch turns_{0, false};
+  TurningPointObserver turns_{0, false};
 };
 
 /// Keeps the start and every n-th step. When there are too many samples, every second one is dropped and n doubles.
@@ -122,7 +122,7 @@ class SampleKeeper final : public Observer {
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
   /// Returns the samples, including the current state.
-  std::vector<Frame> with_present(const Simulation& simulation) const;
+  std::vector<Frame> with_current_state(const Simulation& simulation) const;
   void clear() { samples_.clear(); }
   std::int64_t every() const { return every_; }
 

@@ -92,7 +92,7 @@ bool has_exact(const FigureData& data) {
 /// Extent in each direction of space, over everything that is drawn.
 using Extents = std::vector<Extent>;
 
-Panel panel_of(const Figure& figure, Plane plane, bool with_names, const Extents& shared, Openings& opened) {
+Panel panel_of(const Figure& figure, Plane plane, bool with_names, const Extents& shared, FirstStepLines& opened) {
   const FigureData& one = figure.runs.front();
   const bool exact = figure.runs.size() == 1 && has_exact(one) && plane == Plane{0, 1};
   Panel panel;
@@ -173,7 +173,7 @@ Extents shared_extents(const Figure& figure) {
 
 Page page(const Figure& figure) {
   Page all{figure.runs.front().title, {}};
-  Openings opened = openings_of(figure);
+  FirstStepLines opened = first_step_lines_of(figure);
   const std::vector<Plane> chosen = planes(figure);
   const bool shares = figure.runs.front().space == 3 && chosen.size() > 1;
   const Extents shared = shares ? shared_extents(figure) : Extents{};
@@ -184,7 +184,7 @@ Page page(const Figure& figure) {
     all.columns = 2;
     all.width = two_columns;
   }
-  if (opened.any) note_opening(all, figure.runs.front());
+  if (opened.any) note_first_steps(all, figure.runs.front());
   return all;
 }
 }  // namespace orbit

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../draw_style.hpp"
 #include "../figure_kind.hpp"
-#include "../ink.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
 

@@ -74,7 +74,7 @@ bool waves_too_finely(const Curve& track) {
   return extrema > most;
 }
 
-Curve opening_in_plane(const FigureData& data, const Plane& plane) {
+Curve first_steps_in_plane(const FigureData& data, const Plane& plane) {
   FigureData first_steps;
   static_cast<FigureSamples&>(first_steps) = data.first_steps;
   first_steps.coordinates = data.coordinates;
@@ -100,7 +100,8 @@ void add_exact(Panel& panel, const FigureData& data, const Curve& track) {
   panel.series.push_back({Ink::dots, "numeric", dots_on_line(track, panel)});
 }
 
-Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns, bool with_names, Openings& opened) {
+Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns, bool with_names,
+                  FirstStepLines& opened) {
   const FigureData& one = figure.runs.front();
   Panel panel;
   Extent x;
@@ -109,7 +110,7 @@ Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns,
   std::vector<Curve> openings;
   for (const FigureData& run : figure.runs) {
     tracks.push_back(in_plane(run, plane));
-    openings.push_back(opening_in_plane(run, plane));
+    openings.push_back(first_steps_in_plane(run, plane));
     x.include(tracks.back().x);
     y.include(tracks.back().y);
   }
@@ -151,11 +152,11 @@ Page page(const Figure& figure) {
   all.title = figure.runs.front().title;
   const std::vector<Plane> chosen = planes(figure);
   all.columns = chosen.size() == 1 ? 1 : 2;
-  Openings opened = openings_of(figure);
+  FirstStepLines opened = first_step_lines_of(figure);
   for (const Plane& plane : chosen) {
     all.panels.push_back(phase_panel(figure, plane, all.columns, all.panels.empty(), opened));
   }
-  if (opened.any) note_opening(all, figure.runs.front());
+  if (opened.any) note_first_steps(all, figure.runs.front());
   return all;
 }
 }  // namespace phase

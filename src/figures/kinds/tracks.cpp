@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../draw_style.hpp"
 #include "../figure_kind.hpp"
-#include "../ink.hpp"
 #include "../panels.hpp"
 #include "../particles.hpp"
 #include "../text.hpp"

@@ -28,7 +28,7 @@ class EigenvalueMeasure final : public Measure {
  public:
   explicit EigenvalueMeasure(const Scenario& scenario) : watch_(step_map_of(scenario), scenario.dt, scenario.steps) {}
   Observer& observer() override { return watch_; }
-  TangentWatch* tangents() override { return &watch_; }
+  TangentObserver* tangents() override { return &watch_; }
   void add_to(Summary& summary) const override {
     EigenvalueSummary& all = summary.eigenvalues.emplace();
     all.steps = watch_.step();
@@ -62,7 +62,7 @@ class EigenvalueMeasure final : public Measure {
     return symplectic_eigenvalues(watch_.rows());
   }
 
-  MonodromyWatch watch_;
+  MonodromyObserver watch_;
 };
 
 /// Returns the columns in the order of the summary: partners next to each other.

@@ -31,7 +31,7 @@ class LyapunovMeasure final : public Measure {
   explicit LyapunovMeasure(const Scenario& scenario)
       : watch_(step_map_of(scenario), scenario.dt, scenario.steps, scenario.lyapunov), by_steps_(scenario.map) {}
   Observer& observer() override { return watch_; }
-  TangentWatch* tangents() override { return &watch_; }
+  TangentObserver* tangents() override { return &watch_; }
   void add_to(Summary& summary) const override {
     LyapunovSpectrum found = spectrum();
     LyapunovSummary& all = summary.lyapunov.emplace();
@@ -54,7 +54,7 @@ class LyapunovMeasure final : public Measure {
  private:
   LyapunovSpectrum spectrum() const { return by_steps_ ? watch_.spectrum_by_steps() : watch_.spectrum(); }
 
-  LyapunovWatch watch_;
+  LyapunovObserver watch_;
   bool by_steps_;
 };
 

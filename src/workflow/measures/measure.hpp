@@ -30,7 +30,7 @@ class Measure {
   virtual Observer& observer() = 0;
   /// Returns the observer if it carries tangent vectors, which many members of a sweep compute together; otherwise
   /// null.
-  virtual TangentWatch* tangents() { return nullptr; }
+  virtual TangentObserver* tangents() { return nullptr; }
   /// Returns the observer if it only needs sums over the steps, which SIMD lanes compute themselves; otherwise null.
   virtual SummedSteps* summing() { return nullptr; }
   /// Writes the results so far into its member of the summary, and adds the events that it counts.

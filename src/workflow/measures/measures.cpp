@@ -32,12 +32,12 @@ std::vector<NamedObserver> Measures::observers() const {
   return all;
 }
 
-void Measures::reach_the_end(const Frame& end) {
-  std::vector<TangentWatch*> watches;
+void Measures::observe_end(const Frame& end) {
+  std::vector<TangentObserver*> watches;
   for (const auto& [kind, measure] : requested_) {
-    if (TangentWatch* const watch = measure->tangents()) watches.push_back(watch);
+    if (TangentObserver* const watch = measure->tangents()) watches.push_back(watch);
   }
-  carry_to_the_end(watches, end);
+  advance_tangents_to_end(watches, end);
 }
 
 void Measures::add_to(Summary& summary) const {
@@ -63,9 +63,9 @@ bool Measures::stopped() const {
 namespace {
 
 /// The measures of one member of a sweep. A column has the same numbers as the summary of a single run.
-class MeasuredMember final : public MemberWatch {
+class MemberMeasures final : public MemberObserver {
  public:
-  MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario, const Simulation* alone) {
+  MemberMeasures(std::span<const MeasureKind* const> kinds, const Scenario& scenario, const Simulation* alone) {
     for (const MeasureKind* kind : kinds) {
       if (kind->make != nullptr) {
         measures_.push_back(kind->make(scenario));
@@ -79,10 +79,10 @@ class MeasuredMember final : public MemberWatch {
     for (const auto& measure : measures_) all.push_back(&measure->observer());
     return all;
   }
-  std::vector<TangentWatch*> tangents() override {
-    std::vector<TangentWatch*> all;
+  std::vector<TangentObserver*> tangents() override {
+    std::vector<TangentObserver*> all;
     for (const auto& measure : measures_) {
-      if (TangentWatch* const watch = measure->tangents()) all.push_back(watch);
+      if (TangentObserver* const watch = measure->tangents()) all.push_back(watch);
     }
     return all;
   }
@@ -141,7 +141,7 @@ MemberObservables sweep_columns(const Scenario& member) {
   }
   if (kinds.empty()) return all;
   all.watch = [kinds](const Scenario& scenario, const Simulation* alone) {
-    return std::make_unique<MeasuredMember>(kinds, scenario, alone);
+    return std::make_unique<MemberMeasures>(kinds, scenario, alone);
   };
   return all;
 }

@@ -19,7 +19,7 @@ class Measures {
   Measures(const Scenario& scenario, const Simulation& simulation, Recorder* recorder);
   std::vector<NamedObserver> observers() const;
   /// Call this after an early stop: observers that wait for a later step process the steps up to this one.
-  void reach_the_end(const Frame& end);
+  void observe_end(const Frame& end);
   /// Adds the results of all measures to the summary.
   void add_to(Summary& summary) const;
   /// Adds a warning if steps were too long to be searched.

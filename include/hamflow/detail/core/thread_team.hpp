@@ -58,7 +58,7 @@ class ThreadTeam {
     done_.store(0, std::memory_order_relaxed);
     ++call_;
     tickets_.store((call_ << ticket_bits) | blocks, std::memory_order_release);
-    wake();
+    wake_workers();
     help(0);
     for (int looks = 0; done_.load(std::memory_order_acquire) < blocks; ++looks) {
       if (looks < patience) {
@@ -79,7 +79,7 @@ class ThreadTeam {
     __builtin_ia32_pause();
 #endif
   }
-  void wake() {
+  void wake_workers() {
     // A worker first announces that it sleeps and then reads calls_; here calls_ is written first and sleepers are read
     // afterwards. Neither pair may be reordered.
     calls_.fetch_add(1, std::memory_order_seq_cst);
@@ -87,7 +87,7 @@ class ThreadTeam {
   }
   void dismiss() {
     leaving_.store(true, std::memory_order_relaxed);
-    wake();
+    wake_workers();
     threads_.clear();
   }
   void serve(std::size_t worker) {

@@ -55,7 +55,7 @@ class MachineCode {
   /// Returns the loop; null for the first runs.
   const StepLoop* loop(const Code& code, const std::vector<double>& constants) {
     if (const StepLoop* const ready = ready_.load(std::memory_order_acquire)) return ready;
-    return runs_.fetch_add(1, std::memory_order_relaxed) < worth_it ? nullptr : made(code, constants);
+    return runs_.fetch_add(1, std::memory_order_relaxed) < least_runs_to_record ? nullptr : made(code, constants);
   }
 
  private:
@@ -66,7 +66,7 @@ class MachineCode {
     });
     return loop_.get();
   }
-  static constexpr int worth_it = 100;
+  static constexpr int least_runs_to_record = 100;
   std::atomic<int> runs_{0};
   std::once_flag once_;
   std::atomic<const StepLoop*> ready_{nullptr};

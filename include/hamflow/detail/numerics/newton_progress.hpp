@@ -1,8 +1,9 @@
 // The convergence test of the iteration of an implicit step: from the sizes of successive corrections it decides
 // whether another one is needed. It uses only plain numbers and does not know the equations. Newton's method in general
 // (detail/methods/implicit/newton.hpp), its recorded iterations (src/engine/iteration_runner.hpp), those of members in
-// lanes (src/lanes/iterated_pack.hpp) and the fast path in the plane (detail/methods/implicit/plane_road.hpp) all use
-// it, so that equal corrections end the iteration at the same place, with the same bits.
+// lanes (src/lanes/iterated_pack.hpp) and the fast path in the plane
+// (detail/methods/implicit/two_variable_fast_path.hpp) all use it, so that equal corrections end the iteration at the
+// same place, with the same bits.
 #pragma once
 
 #include <cmath>
@@ -54,7 +55,7 @@ class NewtonProgress {
   /// Call this if the last correction settled although the rounding of the terms is as large as the unknowns. As
   /// long as the terms decrease, this is not a solution.
   /// @return whether to continue; the next correction is then tested without comparison
-  [[gnu::always_inline]] constexpr bool goes_on_with(const Real& terms) {
+  [[gnu::always_inline]] constexpr bool continues_with_terms(const Real& terms) {
     const bool go_on = hidden_ < 2 || terms < hiding_terms_ / 2;
     if (go_on) {
       ++hidden_;
@@ -109,7 +110,7 @@ class NewtonProgress {
   bool has_first_ = false;
   bool is_anew_ = true;  // there is no earlier correction in the same unit
   int stalls_ = 0;
-  int hidden_ = 0;  // number of times that goes_on_with() returned true
+  int hidden_ = 0;  // number of times that continues_with_terms() returned true
   Real first_ = Real(0);
   Real previous_ = Real(0);
   Real least_ = Real(0);  // the smallest of all earlier corrections

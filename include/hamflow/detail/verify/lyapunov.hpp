@@ -105,18 +105,18 @@ struct StepMapSource {
 };
 
 /// State and tangent vectors that the caller advances to the next observation, independently of the run.
-struct TangentsUnderWay {
+struct TangentsToAdvance {
   State<double>* z;
   std::vector<State<double>>* vectors;
   std::int64_t steps;
 };
 
 /// Carries tangent vectors along a run in double. It does not change the states of the run.
-class TangentWatch : public Observer {
+class TangentObserver : public Observer {
  public:
   /// @param last_step last step of the run   @throws Error if there is no such map
-  TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
-  TangentWatch(StepMapSource source, double h, std::int64_t last_step);
+  TangentObserver(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
+  TangentObserver(StepMapSource source, double h, std::int64_t last_step);
   std::int64_t next_due(std::int64_t step) const override;
   /// @throws Error if there is no map
   Verdict observe(const Frame& frame) override;
@@ -129,9 +129,9 @@ class TangentWatch : public Observer {
 
   /// Returns the vectors that the caller may advance to the next observation, together with those of other watches.
   /// nullopt if they have been advanced already, or if no observation is due.
-  std::optional<TangentsUnderWay> under_way();
+  std::optional<TangentsToAdvance> tangents_to_advance();
   /// Call this after state and vectors were advanced. Do not call archive() between this call and the observation.
-  void set_carried() { carried_to_ = next_due(at_ + 1); }
+  void set_advanced() { advanced_to_ = next_due(at_ + 1); }
 
  protected:
   virtual std::vector<State<double>>& tangents() = 0;
@@ -146,7 +146,7 @@ class TangentWatch : public Observer {
 
  private:
   bool advance(std::int64_t steps);
-  void keep_before_the_end();
+  void keep_state_before_end();
   template <class Archive>
   void fields(Archive& ar) {
     ar(due_, at_, z_, followed_);
@@ -158,8 +158,8 @@ class TangentWatch : public Observer {
   double h_;
   std::int64_t last_step_;
   std::int64_t due_ = 0;
-  std::int64_t at_ = -1;          // step to which the vectors belong
-  std::int64_t carried_to_ = -1;  // step to which the caller has advanced them
+  std::int64_t at_ = -1;           // step to which the vectors belong
+  std::int64_t advanced_to_ = -1;  // step to which the caller has advanced them
   State<double> z_;
   bool followed_ = true;
   std::vector<std::byte>
@@ -168,11 +168,11 @@ class TangentWatch : public Observer {
 };
 
 /// Lyapunov exponents of a run. Each exponent costs about three times as much as steps behind virtual calls.
-class LyapunovWatch final : public TangentWatch {
+class LyapunovObserver final : public TangentObserver {
  public:
   /// @param count number of exponents, the largest first; 0: all 2n
-  LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count = 0);
-  LyapunovWatch(StepMapSource source, double h, std::int64_t last_step, std::size_t count = 0);
+  LyapunovObserver(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count = 0);
+  LyapunovObserver(StepMapSource source, double h, std::int64_t last_step, std::size_t count = 0);
   LyapunovSpectrum spectrum() const { return sums_.spectrum(dimension(), step_length()); }
   /// The same, with one step as the unit of time.
   LyapunovSpectrum spectrum_by_steps() const { return sums_.spectrum(dimension(), 1); }

@@ -13,7 +13,7 @@ class CyclicAverages : public AverageEquations<P, R> {
   using Reduced = typename P::Reduced;
   using Rest = NaturalAverages<Reduced, R>;
   using Small = typename Rest::V;
-  using OfRest = Increment<R, Reduced::dimension>;
+  using ReducedIncrement = Increment<R, Reduced::dimension>;
 
  public:
   using typename Base::Memory;
@@ -49,11 +49,11 @@ class CyclicAverages : public AverageEquations<P, R> {
     return rest_.hidden_terms(x, at, correction);
   }
   Increment<Real, n> taken(Variables& x, const Point& at) const {
-    const OfRest of_rest = rest_.taken(x, at);
+    const ReducedIncrement of_rest = rest_.taken(x, at);
     return closed(of_rest, x);
   }
   Increment<Real, n> taken(Variables& x, const Point& at, const Variables& correction) const {
-    const OfRest of_rest = rest_.taken(x, at, correction);
+    const ReducedIncrement of_rest = rest_.taken(x, at, correction);
     return closed(of_rest, x);
   }
   Memory memory(const Variables& x, const Increment<Real, n>&) const { return x; }
@@ -103,7 +103,7 @@ class CyclicAverages : public AverageEquations<P, R> {
                     });
     return sums;
   }
-  Increment<Real, n> closed(const OfRest& of_rest, const Variables& x) const {
+  Increment<Real, n> closed(const ReducedIncrement& of_rest, const Variables& x) const {
     Increment<Real, n> u{zeros<Real, n>(q0_.size() + 1), zeros<Real, n>(q0_.size() + 1)};
     for (std::size_t i = 0; i < q0_.size(); ++i) {
       u.q[i] = of_rest.q[i];

@@ -125,9 +125,10 @@ class GeneralAverages : public AverageEquations<P, R> {
   /// The energy gain according to the quadrature in use: the rounding of the solution.
   Real own_gain(const Variables& x) const { return gain(x, setup_.table()).gain; }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
-    return detail::overlooks_a_gain(
+    return detail::quadrature_misses_gain(
         gain(x, setup_.finer()), table_.points, [&] { return gain(x, setup_.finest()).gain; },
-        [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
+        [&] { return own_gain(x); },
+        [&](std::uint64_t draw) { return detail::gain_of_neighbouring_step(*this, x, draw); });
   }
   /// Whether the energy error is below a hundredth of the work, for elements that conserve the energy.
   bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
@@ -202,7 +203,7 @@ class GeneralAverages : public AverageEquations<P, R> {
   Increment<Real, n> increment_of(const Variables& x) const {
     Increment<Real, n> taken{zeros_like(q0_), zeros_like(q0_)};
     for (std::size_t a = 0; a < m_; ++a) {
-      detail::KeptSum<Real> sum;
+      detail::CompensatedSum<Real> sum;
       for (std::size_t j = 0; j < k_; ++j) {
         if (!(table_.increment[j] == Real(0))) sum.add(x[a * k_ + j]);  // other entries are 1
       }

@@ -120,9 +120,10 @@ class NaturalAverages : public AverageEquations<P, R> {
   /// The energy gain according to the quadrature in use: the rounding of the solution.
   Real own_gain(const Variables& x) const { return gain(x, setup_.table()).gain; }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
-    return detail::overlooks_a_gain(
+    return detail::quadrature_misses_gain(
         gain(x, setup_.finer()), table_.points, [&] { return gain(x, setup_.finest()).gain; },
-        [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
+        [&] { return own_gain(x); },
+        [&](std::uint64_t draw) { return detail::gain_of_neighbouring_step(*this, x, draw); });
   }
   /// Whether the energy error is below a hundredth of the work, for elements that conserve the energy.
   bool energy_error_acceptable(const Variables& x, const Increment<Real, n>&) const {
@@ -222,14 +223,14 @@ class NaturalAverages : public AverageEquations<P, R> {
       if (table_.increment[j] == Real(0)) continue;  // other entries are 1, and so is omega
       const Real length = h_ * table_.scale[j];
       for (std::size_t a = 0; a < size_; ++a) {
-        detail::KeptSum<Real> p{p0_[a], Real(0)};
+        detail::CompensatedSum<Real> p{p0_[a], Real(0)};
         for (std::size_t i = 0; i < k_; ++i) {
           const Real factor = table_.increment[i] / Real(2) + table_.coupling[j * k_ + i];
           if (!(factor == Real(0))) p.add(factor * x[a * k_ + i]);
         }
         high[a] = p.high;
         low[a] = p.low;
-        detail::KeptSum<Real> impulse{taken.p[a], lost_p[a]};
+        detail::CompensatedSum<Real> impulse{taken.p[a], lost_p[a]};
         impulse.add(x[a * k_ + j]);
         taken.p[a] = impulse.high;
         lost_p[a] = impulse.low;
@@ -238,7 +239,7 @@ class NaturalAverages : public AverageEquations<P, R> {
       velocity(problem_, low, rest);
       for (std::size_t a = 0; a < size_; ++a) {
         const Real d = length * v[a];
-        detail::KeptSum<Real> sum{taken.q[a], lost_q[a]};
+        detail::CompensatedSum<Real> sum{taken.q[a], lost_q[a]};
         sum.add(d);
         taken.q[a] = sum.high;
         lost_q[a] = sum.low + (product_error(length, v[a], d) + length * rest[a]);

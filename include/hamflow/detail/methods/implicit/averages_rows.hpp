@@ -187,7 +187,7 @@ R two_norm(const Vector<R, N>& all) {
 
 /// A sum of several terms with its rounding error.   [Knuth1997, 4.2.2]
 template <class Real>
-struct KeptSum {
+struct CompensatedSum {
   Real high{0};
   Real low{0};
   void add(const Real& x) {

@@ -50,8 +50,8 @@ inline constexpr int points_enough = 16;
 /// @param nearby(draw) the gain with one more point minus that with the rule itself, along a neighbouring step; null:
 /// unused
 template <class Real, class TwoMore, class Own, class Nearby = std::nullptr_t>
-bool overlooks_a_gain(const Gain<Real>& one, int points, const TwoMore& two_more, const Own& own,
-                      const Nearby& nearby = nullptr) {
+bool quadrature_misses_gain(const Gain<Real>& one, int points, const TwoMore& two_more, const Own& own,
+                            const Nearby& nearby = nullptr) {
   if (abs(one.gain) <= one.noise) return false;
   const Real of_solution = own();
   const bool rounds = abs(of_solution) <= one.size / (1 << 20);  // a larger value is never rounding
@@ -74,8 +74,8 @@ bool overlooks_a_gain(const Gain<Real>& one, int points, const TwoMore& two_more
 /// a distance of 2^-24 of state and averages: far enough that forces have other rounding errors, even if they lose the
 /// last digits of a state (exp(x) - 1), and close enough that the gain is the same.
 template <class E>
-[[gnu::cold, gnu::noinline]] typename E::Real gain_nearby(const E& step, const typename E::Variables& x,
-                                                          std::uint64_t draw) {
+[[gnu::cold, gnu::noinline]] typename E::Real gain_of_neighbouring_step(const E& step, const typename E::Variables& x,
+                                                                        std::uint64_t draw) {
   using Real = typename E::Real;
   const Real unit = Real(1) / Real(1 << 24);
   auto q = step.positions();
@@ -146,8 +146,8 @@ template <class P, class Real, std::size_t N>
 /// @param own() the gain with the rule in use, which is only the rounding of the solution
 /// @param most_roundings number of roundings of the terms of H that do not count as a change
 template <class P, class Real, std::size_t N, class Own>
-bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
-                        const Increment<Real, N>& taken, const Own& own, int most_roundings = 256) {
+bool energy_test_misses_change(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
+                               const Increment<Real, N>& taken, const Own& own, int most_roundings = 256) {
   constexpr auto epsilon = Epsilon<Real>{};
   Vector<Real, N> q1 = q0;
   Vector<Real, N> p1 = p0;

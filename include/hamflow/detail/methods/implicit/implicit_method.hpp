@@ -260,8 +260,8 @@ class ImplicitMethod {
 
   /// Adds with all digits of the arithmetic.
   static void add(const typename A::Axis& axis, typename A::Stored& s, const Real& r) {
-    if constexpr (requires { axis.add_keeping(s, r); }) {
-      axis.add_keeping(s, r);
+    if constexpr (requires { axis.add_with_exact_low(s, r); }) {
+      axis.add_with_exact_low(s, r);
     } else {
       axis.add(s, r);
     }
@@ -327,10 +327,11 @@ class ImplicitMethod {
     for (;;) {
       const E step(setup_, problem, h, q0, p0, effort_);
       const bool coarse = step.too_coarse(found.x, found.taken);
-      if (!coarse && !overlooks_a_change(step, problem, q0, p0, found)) return found;
+      if (!coarse && !energy_test_misses_change(step, problem, q0, p0, found)) return found;
       if (options_.tolerance && fine_without_tolerance(problem, h, q0, p0, found)) return found;
       const bool finer = setup_.refine();
-      if (!finer && !overlooks_a_change(step, problem, q0, p0, found, 16)) return found;  // roundings of such forces
+      if (!finer && !energy_test_misses_change(step, problem, q0, p0, found, 16))
+        return found;  // roundings of such forces
       if (log != nullptr) {
         log->restart();
         if (!coarse) log->note_change_unseen();
@@ -355,11 +356,11 @@ class ImplicitMethod {
     const E step(setup_, problem, h, q0, p0, effort_);
     Newton<E> trial = newton_;  // its memory of guesses does not belong to the state of the run
     return trial.solve_refined(step, report, found) && !step.too_coarse(found.x, found.taken) &&
-           !overlooks_a_change(step, problem, q0, p0, found);
+           !energy_test_misses_change(step, problem, q0, p0, found);
   }
-  static bool overlooks_a_change(const E& step, const P& problem, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
-                                 const Solution& found, int most_roundings = 256) {
-    return detail::overlooks_a_change(
+  static bool energy_test_misses_change(const E& step, const P& problem, const Vector<Real, n>& q0,
+                                        const Vector<Real, n>& p0, const Solution& found, int most_roundings = 256) {
+    return detail::energy_test_misses_change(
         problem, q0, p0, found.taken,
         [&] {
           if constexpr (requires { step.own_gain(found.x); }) {

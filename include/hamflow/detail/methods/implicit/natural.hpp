@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "hamflow/detail/methods/implicit/energy_gain.hpp"
-#include "hamflow/detail/methods/implicit/plane_road.hpp"
 #include "hamflow/detail/methods/implicit/segment.hpp"
+#include "hamflow/detail/methods/implicit/two_variable_fast_path.hpp"
 
 namespace hamflow {
 
@@ -62,7 +62,8 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   [[gnu::always_inline]] V started(const V& impulse) const { return displacement(impulse, Real(0.5)); }
 
-  /// The whole iteration for an ordinary step (plane_road.hpp). If the step is not ordinary, nothing is counted.
+  /// The whole iteration for an ordinary step (two_variable_fast_path.hpp). If the step is not ordinary, nothing is
+  /// counted.
   [[gnu::always_inline]] FastPathResult fast_path(const V& impulse,
                                                   int most) const requires TakesTwo<P> && std::same_as<Real, double> {
     const FastPathResult end = two_variable_fast_path(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
@@ -81,7 +82,7 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   /// Removes the rounding of the residual. In the plane taken() does this, outside the chain of dependent operations.
   void remove_residual_rounding(const V& d, Point& at) const requires(n > 2) {
-    const V lost = lost_in_residual(at, half_impulse(at));
+    const V lost = residual_rounding(at, half_impulse(at));
     for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] += lost[i];
   }
   [[gnu::always_inline]] Matrix<Real, n> tangent(const Point& at) const {
@@ -137,7 +138,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     const Expanded half = half_impulse(at);
     V c = correction;
     if constexpr (n <= 2) {
-      const V more = made_up_for(tangent(at), lost_in_residual(at, half));
+      const V more = made_up_for(tangent(at), residual_rounding(at, half));
       for (std::size_t i = 0; i < n; ++i) c[i] += more[i];
     }
     return taken(d, at, half, c);
@@ -177,9 +178,9 @@ class NaturalElement : public SegmentEquations<P, R> {
   /// twice the root of the sum of squares.)
   bool too_coarse(const V&, const Increment<Real, n>& taken) const {
     if (q0_.size() > 4) {
-      return detail::overlooks_a_gain(
+      return detail::quadrature_misses_gain(
           finer_work(taken, 1), rule_.points, [&] { return finer_work(taken, 2).gain; }, [] { return Real(0); },
-          [&](std::uint64_t draw) { return gain_nearby(taken, draw); });
+          [&](std::uint64_t draw) { return gain_of_neighbouring_step(taken, draw); });
     }
     const Real rounding = rounding_of_work(taken);
     return abs(finer_work(taken).gain) > rounding;
@@ -212,7 +213,8 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
 
   /// The gain with one more point minus that with the rule itself, along a neighbouring segment (energy_gain.hpp).
-  [[gnu::cold, gnu::noinline]] Real gain_nearby(const Increment<Real, n>& taken, std::uint64_t draw) const {
+  [[gnu::cold, gnu::noinline]] Real gain_of_neighbouring_step(const Increment<Real, n>& taken,
+                                                              std::uint64_t draw) const {
     const Real unit = Real(1) / Real(1 << 24);
     V q = q0_;
     V d = taken.q;
@@ -366,7 +368,7 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   /// The rounding error of the residual h M^-1 (p0 + h F/2) - d, which is that of its first term, epsilon |h M^-1 p0|,
   /// because the difference is exact near the solution.
-  [[gnu::always_inline]] V lost_in_residual(const Point& at, const Expanded& half) const {
+  [[gnu::always_inline]] V residual_rounding(const Point& at, const Expanded& half) const {
     V middle = zeros_like(p0_);
     V lost = zeros_like(p0_);  // middle + lost = p0 + h F/2
     for (std::size_t i = 0; i < p0_.size(); ++i) {

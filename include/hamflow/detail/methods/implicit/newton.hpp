@@ -259,7 +259,7 @@ class Newton {
       if constexpr (requires { step.hidden_terms(x, at, correction); }) {
         if (at_rounding) {
           const Real terms = step.hidden_terms(x, at, correction);
-          if (terms > Real(0) && progress.goes_on_with(terms)) [[unlikely]]
+          if (terms > Real(0) && progress.continues_with_terms(terms)) [[unlikely]]
             at_rounding = false;
         }
       }

@@ -1,4 +1,4 @@
-#include "figure_seen.hpp"
+#include "figure_description.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ std::string plain_text(const std::string& enhanced) {
 
 using namespace figures;
 
-constexpr std::size_t most_told = 6;  // a listener cannot tell more curves of one panel apart
+constexpr std::size_t most_described_curves = 6;  // a listener cannot tell more curves of one panel apart
 
 /// Whether two values look equal in the figure: they differ by less than a hundredth of the axis.
 bool is_near(double a, double b, const Axis& axis) {
@@ -96,7 +96,7 @@ const char* kind_of(const Series& series) {
 }
 
 /// Describes the range of an axis. Logarithmic axes store logarithms; the text shows the values.
-std::string told_range(const char* name, const Axis& axis) {
+std::string described_range(const char* name, const Axis& axis) {
   const auto number = [&](double x) { return fmt::format("{:.3g}", axis.logarithmic ? std::pow(10.0, x) : x); };
   const std::string unit = axis.exponent == 0 ? "" : fmt::format(", in 10^{}", axis.exponent);
   return fmt::format("{} from {} to {}{}{}", name, number(axis.low), number(axis.high), unit,
@@ -119,7 +119,7 @@ std::string as_sentence(std::string text) {
 }
 }  // namespace
 
-std::string seen_in(const Page& page) {
+std::string describe_curves(const Page& page) {
   std::string text;
   int number = 0;
   for (const Panel& panel : page.panels) {
@@ -130,7 +130,7 @@ std::string seen_in(const Page& page) {
     std::size_t count = 0;
     int nameless = 0;
     for (const Series& series : panel.series) {
-      if (!is_told(series) || ++count > most_told) continue;
+      if (!is_told(series) || ++count > most_described_curves) continue;
       const std::string who = !series.name.empty() ? plain_text(series.name)
                               : unnamed > 1        ? fmt::format("curve {}", ++nameless)
                                                    : "the curve";
@@ -149,7 +149,7 @@ std::string words_of(const Page& page) {
     text += (text.empty() ? "" : " ") + (page.panels.size() > 1 ? fmt::format("{}: ", number) : std::string());
     const std::string up = label_of(panel.y_label), across = label_of(panel.x_label);
     text += (up.empty() ? "a curve" : up) + (across.empty() ? "" : " over " + across);
-    text += ", " + told_range("x", panel.x) + ", " + told_range("y", panel.y);
+    text += ", " + described_range("x", panel.x) + ", " + described_range("y", panel.y);
     std::string drawn;
     for (const Series& series : panel.series) {
       if (series.name.empty() && panel.series.size() > 1) continue;
@@ -158,7 +158,7 @@ std::string words_of(const Page& page) {
     }
     text += drawn + ".";
   }
-  const std::string seen = seen_in(page);
+  const std::string seen = describe_curves(page);
   return text + (seen.empty() ? "" : " " + seen);
 }
 

@@ -1,4 +1,4 @@
-#include "hamflow/detail/verify/swings.hpp"
+#include "hamflow/detail/verify/oscillation_counter.hpp"
 
 #include <algorithm>
 
@@ -8,12 +8,12 @@ namespace {
 // A sample at a random place meets a peak with a probability equal to the part of the period that the peak lasts. If
 // samples are 16 times as many as needed to meet one on average (32 for a sine), all of them miss the peak once in 10^7
 // cases.
-constexpr double never_missed = 16;
+constexpr double samples_per_certain_turn = 16;
 }  // namespace
 
-void Swings::look(std::int64_t step, double x) {
-  apart_ = step - looked_;
-  looked_ = step;
+void OscillationCounter::look(std::int64_t step, double x) {
+  apart_ = step - last_sample_step_;
+  last_sample_step_ = step;
   if (counted_range_ < 0) {
     least_ = most_ = extreme_ = x;
     at_ = step;
@@ -27,7 +27,7 @@ void Swings::look(std::int64_t step, double x) {
     counted_range_ = range;
     earlier_turns_ += turns_;
     turns_ = 0;
-    longest_gap_ = shortest_stay_ = 0;
+    longest_gap_ = shortest_peak_ = 0;
     later_turns_ = 0;
     direction_ = x == most_ ? 1 : -1;
     extreme_ = x;
@@ -45,14 +45,14 @@ void Swings::look(std::int64_t step, double x) {
   }
 }
 
-void Swings::turn(std::int64_t step) {
+void OscillationCounter::turn(std::int64_t step) {
   // On an orbit whose axis rotates, a coordinate widens from turn to turn. Therefore a doubling of the range after a
   // whole period is measured against the range at the latest turn.
   if (turns_ >= 2) counted_range_ = most_ - least_;
   const std::int64_t gap = at_ - latest_turn_;
-  const std::int64_t stay = step - noticed_;
+  const std::int64_t stay = step - recognised_at_;
   latest_turn_ = at_;
-  noticed_ = step;
+  recognised_at_ = step;
   if (turns_ > 0) longest_gap_ = std::max(longest_gap_, gap);
   if (turns_ >= enough_turns) {
     const double turns = static_cast<double>(gap) / half_period();
@@ -61,33 +61,33 @@ void Swings::turn(std::int64_t step) {
     return;
   }
   if (turns_ == 0) first_turn_ = at_;
-  if (turns_ == 1 || (turns_ > 1 && stay < shortest_stay_)) shortest_stay_ = stay;
+  if (turns_ == 1 || (turns_ > 1 && stay < shortest_peak_)) shortest_peak_ = stay;
   last_turn_ = at_;
   ++turns_;
 }
 
 /// Returns the time for which samples may show no turn although the oscillation continues; 0: no turn can be missed.
-double Swings::missed() const {
+double OscillationCounter::missed() const {
   const double apart = static_cast<double>(apart_);
-  const double stay = static_cast<double>(shortest_stay_);
-  return 2 * apart > stay ? never_missed * apart * 2 * half_period() / stay : 0;
+  const double stay = static_cast<double>(shortest_peak_);
+  return 2 * apart > stay ? samples_per_certain_turn * apart * 2 * half_period() / stay : 0;
 }
 
-std::optional<Swings::Seen> Swings::seen(std::int64_t steps_taken) const {
+std::optional<OscillationCounter::Seen> OscillationCounter::seen(std::int64_t steps_taken) const {
   if (turns_ == 0) return std::nullopt;
   if (turns_ == 1) return Seen{0.5, false, latest_turn_};
-  const auto silence = static_cast<double>(steps_taken - latest_turn_);
-  const bool is_over = silence > std::max(6 * static_cast<double>(longest_gap_), missed());
+  const auto steps_since_turn = static_cast<double>(steps_taken - latest_turn_);
+  const bool is_over = steps_since_turn > std::max(6 * static_cast<double>(longest_gap_), missed());
   // Before the first turn and after the last one there is at most half a period, unless turns may have been missed.
   const double begun = static_cast<double>(first_turn_) / half_period();
   const double before = earlier_turns_ > 0 ? begun : std::min(begun, 1.0);
-  const double ended = silence / half_period();
-  const double after = is_over ? 0 : silence <= missed() / 2 ? ended : std::min(ended, 1.0);
+  const double ended = steps_since_turn / half_period();
+  const double after = is_over ? 0 : steps_since_turn <= missed() / 2 ? ended : std::min(ended, 1.0);
   const double half_periods = before + static_cast<double>(turns_ - 1) + later_turns_ + after;
   return Seen{half_periods / 2, is_over, latest_turn_};
 }
 
-std::optional<double> Swings::period(std::int64_t steps_taken) const {
+std::optional<double> OscillationCounter::period(std::int64_t steps_taken) const {
   if (turns_ == 0) return std::nullopt;
   if (turns_ == 1) return 2 * static_cast<double>(steps_taken);
   return 2 * static_cast<double>(last_turn_ - first_turn_) / static_cast<double>(turns_ - 1);

@@ -1,4 +1,4 @@
-#include "meant.hpp"
+#include "suggested_names.hpp"
 
 #include <algorithm>
 #include <map>

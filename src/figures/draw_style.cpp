@@ -1,4 +1,4 @@
-#include "ink.hpp"
+#include "draw_style.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ constexpr std::array<const char*, 8> colours{"#1f4e8c", "#d55e00", "#009e73", "#
                                              "#e69f00", "#56b4e9", "#6b3d1e", "#4d4d4d"};
 
 /// Returns the colour with its opacity as gnuplot accepts it: "#aarrggbb", where ff is transparent.
-std::string inked(const Series& series) {
+std::string colour_with_opacity(const Series& series) {
   const std::string colour = colour_of(series);
   if (series.opacity >= 1) return colour;
   return fmt::format("#{:02x}{}", static_cast<int>(std::lround(255 * (1 - series.opacity))), colour.substr(1));
@@ -22,7 +22,7 @@ std::string inked(const Series& series) {
 
 /// Returns the drawing style for a plot command. Dark dots over a lighter line also differ in brightness.
 std::string drawn(const Series& series) {
-  const std::string colour = inked(series);
+  const std::string colour = colour_with_opacity(series);
   const auto line = [&](double width) {
     return fmt::format("with lines linewidth {} linecolor rgb '{}' dashtype {}", width, colour, series.mark.dash);
   };

@@ -1,6 +1,6 @@
 // Interruption of a step in many digits, where a single evaluation of a force takes seconds. The functions of a
-// problem, in which every method spends its time, check for a requested stop (src/engine/asking_functions.hpp) and
-// throw; the simulation then restores its state (src/engine/mp_simulation.cpp).
+// problem, in which every method spends its time, check for a requested stop (src/engine/interruptible_functions.hpp)
+// and throw; the simulation then restores its state (src/engine/mp_simulation.cpp).
 #pragma once
 
 #include <utility>

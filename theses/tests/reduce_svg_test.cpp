@@ -1,5 +1,5 @@
 // The figures of the page are those of the folder, with fewer bytes.
-#include "slim_svg.hpp"
+#include "reduce_svg.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct Place {
   double x, y;
 };
 
-/// The points of a path "Mx ydx dy..." as slim_svg writes it.
+/// The points of a path "Mx ydx dy..." as reduce_svg writes it.
 std::vector<Place> places_in(const std::string& svg) {
   const std::size_t begin = svg.find(" d='M") + 4, end = svg.find('\'', begin);
   std::string numbers;
@@ -49,7 +49,7 @@ TEST(SlimSvg, NoPointOfALineIsFartherThanTheEyeSees) {
     more << " L" << x << ',' << y;
     path += more.str();
   }
-  const std::string slim = slim_svg(path + "  '/>\n");
+  const std::string slim = reduce_svg(path + "  '/>\n");
   const std::vector<Place> kept = places_in(slim);
   ASSERT_GT(kept.size(), 2u);
   EXPECT_LT(kept.size(), points.size() / 2);
@@ -67,14 +67,14 @@ TEST(SlimSvg, DotsBecomeOnePathOfRoundEnds) {
     dots += "\t<use xlink:href='#gpPt6' transform='translate(" + std::string(place) +
             ") scale(0.63)' color='rgb(1, 2, 3)'/>\n";
   }
-  EXPECT_EQ(slim_svg(dots + "</g>\n"),
+  EXPECT_EQ(reduce_svg(dots + "</g>\n"),
             "<path fill='none' stroke-linecap='round' stroke='rgb(1, 2, 3)' stroke-width='1.4175' "
             "d='M10 20h0m.5 0h0m-1.25 1.1h0'/>\n</g>\n");
 }
 
 TEST(SlimSvg, WhatItDoesNotKnowStays) {
   const std::string svg = "<path d='M0,0 C1,2 3,4 5,6'/>\n<text>M1,2 L3,4</text>\n<use xlink:href='#gpPt3'/>\n";
-  EXPECT_EQ(slim_svg(svg), svg);
+  EXPECT_EQ(reduce_svg(svg), svg);
 }
 
 }  // namespace

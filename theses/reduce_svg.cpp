@@ -1,4 +1,4 @@
-#include "slim_svg.hpp"
+#include "reduce_svg.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 namespace hamflow::reproduction {
 
-namespace slimming {
+namespace svg_reduction {
 
 constexpr double unseen = 0.05;  // a figure is some 300 units wide: a tenth of a pixel if it fills the page
 
@@ -75,7 +75,7 @@ std::string pair_of(long dx, long dy) {
 
 /// Reads a path of absolute lines, such as "M41.16,205.15 L45.16,205.15", with a flag for closed ones. Returns nullopt
 /// if the path contains anything else.
-std::optional<std::vector<std::pair<std::vector<Point>, bool>>> lines_in(std::string_view d) {
+std::optional<std::vector<std::pair<std::vector<Point>, bool>>> parse_lines(std::string_view d) {
   std::vector<std::pair<std::vector<Point>, bool>> lines;
   const std::string text(d);
   const char* at = text.c_str();
@@ -104,8 +104,8 @@ std::optional<std::vector<std::pair<std::vector<Point>, bool>>> lines_in(std::st
   return lines;
 }
 
-std::string slim_path(std::string_view d) {
-  const auto lines = lines_in(d);
+std::string reduce_path(std::string_view d) {
+  const auto lines = parse_lines(d);
   if (!lines) return std::string(d);
   std::string all;
   for (const auto& [line, closed] : *lines) {
@@ -163,7 +163,7 @@ std::string path_of(const std::vector<Disc>& discs) {
 }
 
 /// Removes definitions of symbols that are not used.
-std::string without_unused(const std::string& svg) {
+std::string remove_unused_symbols(const std::string& svg) {
   std::string all;
   for (std::size_t at = 0; at < svg.size();) {
     const std::size_t end = std::min(svg.find('\n', at), svg.size() - 1) + 1;
@@ -177,10 +177,10 @@ std::string without_unused(const std::string& svg) {
   return all;
 }
 
-}  // namespace slimming
+}  // namespace svg_reduction
 
-std::string slim_svg(const std::string& svg) {
-  using namespace slimming;
+std::string reduce_svg(const std::string& svg) {
+  using namespace svg_reduction;
   std::string all;
   std::vector<Disc> discs;
   const auto put_discs = [&] {
@@ -211,13 +211,13 @@ std::string slim_svg(const std::string& svg) {
     }
     if (d != line.npos && line.find('\'', d + 4) != line.npos) {
       const std::size_t close = line.find('\'', d + 4);
-      line.replace(d + 4, close - d - 4, slim_path(std::string_view(line).substr(d + 4, close - d - 4)));
+      line.replace(d + 4, close - d - 4, reduce_path(std::string_view(line).substr(d + 4, close - d - 4)));
     }
     all += line;
   }
   put_discs();
   // Symbols refer to each other, so a removed one can make another unused.
-  return without_unused(without_unused(without_unused(all)));
+  return remove_unused_symbols(remove_unused_symbols(remove_unused_symbols(all)));
 }
 
 }  // namespace hamflow::reproduction

@@ -1,4 +1,4 @@
-#include "step_surroundings.hpp"
+#include "step_test_states.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ State<double> centre_of(const StepProblem& problem) {
 
 }  // namespace
 
-Surroundings surroundings_of(const StepProblem& problem) {
+StepTestStates step_test_states(const StepProblem& problem) {
   constexpr double spread = 0.1;
   constexpr std::size_t count = 4;
   const State<double> centre = centre_of(problem);
@@ -106,7 +106,7 @@ Surroundings surroundings_of(const StepProblem& problem) {
     throw Error("H or its gradient is not finite at the state chosen for " + problem.entry->info.name +
                 "; give a state of the motion, e.g. by problem.at(q=..., p=...)");
   }
-  Surroundings found;
+  StepTestStates found;
   const auto [q, p] = parts(centre);
   const EnergyGradient g = problem.entry->gradient(problem.parameters, q, p);
   found.frequency = frequency_at(problem, centre);

@@ -1,4 +1,4 @@
-#include "run_mark.hpp"
+#include "run_identity.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,11 @@
-// The functions of a problem with a check for a requested stop before each evaluation (src/engine/way_out.hpp).
+// The functions of a problem with a check for a requested stop before each evaluation
+// (src/engine/step_interruption.hpp).
 #pragma once
 
 #include <memory>
 
 #include "forwarding_functions.hpp"
-#include "way_out.hpp"
+#include "step_interruption.hpp"
 
 namespace hamflow {
 

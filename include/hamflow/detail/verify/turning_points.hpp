@@ -11,7 +11,7 @@
 namespace hamflow {
 
 /// The fastest oscillation that was seen.
-struct FastestTurns {
+struct FastestOscillation {
   double period = 0;             // in units of time
   double dt = 0;                 // step size of the steps that showed the oscillation
   std::uint64_t coordinate = 0;  // index, counted from 0
@@ -26,13 +26,13 @@ struct FastestTurns {
 /// of 10^9 steps is interrupted 1600 times. A window shows at least six periods of an oscillation with fewer than ten
 /// steps per period; slower oscillations do not matter here. The windows do not depend on the length of the run, so a
 /// run that is resumed and prolonged sees the same as an uninterrupted one.
-class TurnWatch final : public Observer {
+class TurningPointObserver final : public Observer {
  public:
   static constexpr std::int64_t window = 64;
   static constexpr std::size_t fewest_periods = 4;      // periods in a window that count as an oscillation
   static constexpr std::size_t most_coordinates = 512;  // if there are more, every second, third, ... is observed
   /// @param active false: observe nothing, for example for methods with sub-steps
-  explicit TurnWatch(double dt, bool active = true) : dt_(dt), active_(active) {}
+  explicit TurningPointObserver(double dt, bool active = true) : dt_(dt), active_(active) {}
 
   bool is_active() const { return active_; }
   double step_length() const { return dt_; }
@@ -41,7 +41,7 @@ class TurnWatch final : public Observer {
   /// Continues from this step with another step size, and keeps earlier results.
   void restart(std::int64_t step, double dt, bool active);
   /// Returns the oscillation with the fewest steps per period; nullopt if no coordinate oscillated within 64 steps.
-  std::optional<FastestTurns> fastest() const;
+  std::optional<FastestOscillation> fastest() const;
 
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
@@ -53,7 +53,7 @@ class TurnWatch final : public Observer {
   void fields(Archive& ar) {
     ar(longest_, first_, last_, stride_, width_, samples_, found_);
   }
-  std::optional<FastestTurns> in_window() const;
+  std::optional<FastestOscillation> in_window() const;
 
   double dt_;
   bool active_;
@@ -63,7 +63,7 @@ class TurnWatch final : public Observer {
   std::uint64_t stride_ = 1;     // distance between observed coordinates
   std::uint64_t width_ = 0;      // number of observed coordinates
   std::vector<double> samples_;  // samples of the current window, step by step
-  std::optional<FastestTurns> found_;
+  std::optional<FastestOscillation> found_;
 };
 
 /// Returns the median time from one turn of a series to the turn after the next, in samples; nullopt with fewer than

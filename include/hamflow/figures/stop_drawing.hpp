@@ -14,12 +14,12 @@ struct DrawingStopped : FileError {
 
 /// While an object exists, this thread calls `go_on` whenever it waits for gnuplot; if it returns false, gnuplot is
 /// ended.
-class WhileDrawing {
+class StopDrawingScope {
  public:
-  explicit WhileDrawing(std::function<bool()> go_on);
-  ~WhileDrawing();
-  WhileDrawing(const WhileDrawing&) = delete;
-  WhileDrawing& operator=(const WhileDrawing&) = delete;
+  explicit StopDrawingScope(std::function<bool()> go_on);
+  ~StopDrawingScope();
+  StopDrawingScope(const StopDrawingScope&) = delete;
+  StopDrawingScope& operator=(const StopDrawingScope&) = delete;
 
  private:
   std::function<bool()> go_on_;

@@ -6,7 +6,7 @@
 
 namespace bench {
 
-struct Peer {
+struct OtherLibraryMethod {
   std::string library;  // "odeint", "gsl", "arkode"
   std::string stepper;  // the name of the method in that library
   std::string method;   // the method of hamflow that is the same map; empty: none
@@ -15,15 +15,15 @@ struct Peer {
   Runner run;
 };
 
-std::vector<Peer> odeint_peers();
-std::vector<Peer> gsl_peers();
-std::vector<Peer> arkode_peers();
+std::vector<OtherLibraryMethod> odeint_peers();
+std::vector<OtherLibraryMethod> gsl_peers();
+std::vector<OtherLibraryMethod> arkode_peers();
 /// The versions of the libraries, or "missing".
 std::string odeint_version();
 std::string gsl_version();
 std::string arkode_version();
 
 /// Adds the steppers of other libraries that are the same method.
-void add_peers(Workload& workload, const Task& task);
+void add_other_libraries(Workload& workload, const Task& task);
 
 }  // namespace bench

@@ -17,7 +17,7 @@
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "library.hpp"
 #include "mclachlan.hpp"
-#include "peers.hpp"
+#include "other_libraries.hpp"
 
 namespace bench {
 
@@ -32,16 +32,17 @@ Task task_of(std::int64_t steps) {
 }
 
 /// A racer on the ellipse. After one period the exact solution is at the start.
-Racer on_ellipse(const std::string& name, int order, const Runner& run) {
+TimedMethod on_ellipse(const std::string& name, int order, const Runner& run) {
   return {name, order, [run](std::int64_t steps, std::int64_t laps) {
             const Task task = task_of(steps);
             const Run all = run(task, steps * laps);
-            return Racer::Lap{all.nanoseconds,
-                              std::hypot(all.end.q[0] - task.start.q[0], all.end.q[1] - task.start.q[1]), all.forces};
+            return TimedMethod::CourseTiming{all.nanoseconds,
+                                             std::hypot(all.end.q[0] - task.start.q[0], all.end.q[1] - task.start.q[1]),
+                                             all.forces};
           }};
 }
 template <class Recipe>
-Racer typed(const std::string& name, int order, const Recipe& recipe) {
+TimedMethod typed(const std::string& name, int order, const Recipe& recipe) {
   return on_ellipse(name, order, [=](const Task& task, std::int64_t steps) { return run_typed(task, recipe, steps); });
 }
 
@@ -51,13 +52,14 @@ std::string gauss_name(int stages) { return "gauss(" + std::to_string(stages) + 
 /// Runs a method by name on a course: one simulation for the error at the end, and one for the time, without the steps
 /// in which the step is recorded and compiled.
 /// @param request everything except the method   @param error returns the error of the end state
-Racer::Lap run_by_name(hamflow::Request request, const std::string& method, std::int64_t steps, std::int64_t laps,
-                       const std::function<double(const std::vector<double>& q)>& error) {
+TimedMethod::CourseTiming run_by_name(hamflow::Request request, const std::string& method, std::int64_t steps,
+                                      std::int64_t laps,
+                                      const std::function<double(const std::vector<double>& q)>& error) {
   constexpr std::int64_t until_compiled = 400;
   request.method = hamflow::parse_method(method);
   request.watch = false;
   const auto once = hamflow::make_simulation(request);
-  Racer::Lap lap;
+  TimedMethod::CourseTiming lap;
   if (once->advance(steps) != hamflow::Outcome::done) return {1, INFINITY, 0};
   hamflow::Frame frame;
   once->look(frame);
@@ -69,7 +71,7 @@ Racer::Lap run_by_name(hamflow::Request request, const std::string& method, std:
   return lap;
 }
 
-Racer ellipse_by_name(const std::string& name, int order, const std::string& method) {
+TimedMethod ellipse_by_name(const std::string& name, int order, const std::string& method) {
   return {name, order, [method](std::int64_t steps, std::int64_t laps) {
             const Task task = task_of(steps);
             hamflow::Request request = kepler_request(task, "exact", "double");
@@ -100,8 +102,8 @@ class OuterPlanets {
     simulation->look(frame);
     end_ = frame.q;
   }
-  Racer::Lap run(const std::string& method, const std::string& arithmetic, std::int64_t steps,
-                 std::int64_t laps) const {
+  TimedMethod::CourseTiming run(const std::string& method, const std::string& arithmetic, std::int64_t steps,
+                                std::int64_t laps) const {
     hamflow::Request request = of_steps(steps);
     request.arithmetic = arithmetic;
     return run_by_name(request, method, steps, laps, [&](const std::vector<double>& q) {
@@ -126,25 +128,25 @@ class OuterPlanets {
 
 Course ellipse() {
   using namespace hamflow;
-  std::vector<Racer> all{typed("stv4", 4, Composition<compositions::stv4>{}),
-                         typed("suzuki4", 4, Composition<compositions::suzuki4>{}),
-                         typed("yoshida6", 6, Composition<compositions::yoshida6>{}),
-                         typed("kahan-li8", 8, Composition<compositions::kahan_li8>{}),
-                         typed("sb3a_m4", 4, SplittingBy<sb3a_m4>{}),
-                         typed("rk4", 4, RungeKuttaBy<tableaus::rk4>{}),
-                         typed("verlet", 2, Composition<compositions::verlet>{}),
-                         typed("rkn8-s19", 8, SplittingBy<splittings::rkn8_s19>{}),
-                         typed("dop853", 8, Dop853{{.fixed = true}}),
-                         typed("cg(1,5)", 2, Cg{{.quadrature = 5}}),
-                         typed("cg(2,4)", 4, CgOfDegree{{.degree = 2, .quadrature = 4}}),
-                         typed("cg(3,6)", 6, CgOfDegree{{.degree = 3, .quadrature = 6}})};
+  std::vector<TimedMethod> all{typed("stv4", 4, Composition<compositions::stv4>{}),
+                               typed("suzuki4", 4, Composition<compositions::suzuki4>{}),
+                               typed("yoshida6", 6, Composition<compositions::yoshida6>{}),
+                               typed("kahan-li8", 8, Composition<compositions::kahan_li8>{}),
+                               typed("sb3a_m4", 4, SplittingBy<sb3a_m4>{}),
+                               typed("rk4", 4, RungeKuttaBy<tableaus::rk4>{}),
+                               typed("verlet", 2, Composition<compositions::verlet>{}),
+                               typed("rkn8-s19", 8, SplittingBy<splittings::rkn8_s19>{}),
+                               typed("dop853", 8, Dop853{{.fixed = true}}),
+                               typed("cg(1,5)", 2, Cg{{.quadrature = 5}}),
+                               typed("cg(2,4)", 4, CgOfDegree{{.degree = 2, .quadrature = 4}}),
+                               typed("cg(3,6)", 6, CgOfDegree{{.degree = 3, .quadrature = 6}})};
   for (const int stages : {4, 8}) {
     all.push_back(typed(gauss_name(stages), 2 * stages, Gauss{{.stages = stages}}));
     all.push_back(ellipse_by_name(gauss_name(stages) + ", fixed-point", 2 * stages, by_fixed_point(stages)));
   }
   for (const auto& peers : {odeint_peers(), gsl_peers()}) {
     // A method of order 1 would need 10^8 steps or more.
-    for (const Peer& peer : peers) {
+    for (const OtherLibraryMethod& peer : peers) {
       if (peer.order > 1) all.push_back(on_ellipse(peer.library + " " + peer.stepper, peer.order, peer.run));
     }
   }
@@ -153,7 +155,7 @@ Course ellipse() {
 
 Course outer_planets() {
   const auto planets = std::make_shared<const OuterPlanets>();
-  std::vector<Racer> all;
+  std::vector<TimedMethod> all;
   const auto put = [&](const std::string& name, int order, const std::string& method,
                        const std::string& arithmetic = "double") {
     all.push_back({name, order, [=](std::int64_t steps, std::int64_t laps) {

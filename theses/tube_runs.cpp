@@ -1,4 +1,4 @@
-#include "tube_watch.hpp"
+#include "tube_runs.hpp"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@ namespace hamflow::reproduction {
 
 namespace {
 
-constexpr std::int64_t part_of_block = 20000;  // steps from one check for Ctrl-C to the next
-constexpr std::int64_t seldom = 10;            // steps from one sample to the next, outside of lanes
+constexpr std::int64_t steps_per_stop_check = 20000;  // steps from one check for Ctrl-C to the next
+constexpr std::int64_t steps_per_sample = 10;         // steps from one sample to the next, outside of lanes
 
 Scenario scenario_for(const TubeSet& set, const TubeStart& start) {
   Reading reading = read_scenario_text(scenario_of_start(set, start, set.block), name_of(set.run), set.sets);
@@ -49,7 +49,7 @@ std::int64_t sum_of(const std::vector<WallCount>& walls) {
 }
 
 /// Runs each start in its own lane.   @return false if the method does not run in lanes
-bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch> all) {
+bool run_tubes_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch> all) {
   std::vector<Scenario> scenarios;
   std::vector<MemberStart> members;
   ParameterShape shape;
@@ -72,7 +72,7 @@ bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch>
   if (!block || !block->load(shape, std::span(members).first(1))) return false;  // lanes() needs a loaded member
   if (all.size() > block->lanes()) {
     for (std::size_t i = 0; i < all.size(); i += block->lanes()) {
-      if (!watch_in_lanes(study, set, all.subspan(i, std::min(block->lanes(), all.size() - i)))) return false;
+      if (!run_tubes_in_lanes(study, set, all.subspan(i, std::min(block->lanes(), all.size() - i)))) return false;
     }
     return true;
   }
@@ -87,8 +87,8 @@ bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch>
   std::vector<double> means(kinetic.size());
   Frame frame;
   for (std::size_t b = 0; b < set.blocks; ++b) {
-    for (std::int64_t steps = 0; steps < set.block; steps += part_of_block) {
-      block->advance(std::min(part_of_block, set.block - steps));
+    for (std::int64_t steps = 0; steps < set.block; steps += steps_per_stop_check) {
+      block->advance(std::min(steps_per_stop_check, set.block - steps));
       study.breathe();
     }
     bool any = false;
@@ -114,7 +114,7 @@ bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch>
   return true;
 }
 
-void watch_alone(const Study& study, const TubeSet& set, TubeWatch& watch) {
+void run_tube_alone(const Study& study, const TubeSet& set, TubeWatch& watch) {
   const Scenario scenario = scenario_for(set, watch.start);
   Request request = scenario.request;
   request.watch = false;
@@ -123,9 +123,9 @@ void watch_alone(const Study& study, const TubeSet& set, TubeWatch& watch) {
   bool goes_on = true;
   for (std::size_t b = 0; b < set.blocks && goes_on; ++b) {
     std::vector<double> means(2);
-    const std::int64_t looks = set.block / seldom;
+    const std::int64_t looks = set.block / steps_per_sample;
     for (std::int64_t i = 0; i < looks; ++i) {
-      if (simulation->advance(seldom) != Outcome::done) {  // a soft wall fails if a body passes it
+      if (simulation->advance(steps_per_sample) != Outcome::done) {  // a soft wall fails if a body passes it
         watch.stopped = true;
         return;
       }
@@ -140,18 +140,18 @@ void watch_alone(const Study& study, const TubeSet& set, TubeWatch& watch) {
   }
 }
 
-std::vector<TubeWatch> watch_some(const Study& study, const TubeSet& set, std::span<const TubeStart> starts) {
+std::vector<TubeWatch> run_tube_group(const Study& study, const TubeSet& set, std::span<const TubeStart> starts) {
   std::vector<TubeWatch> all;
   for (const TubeStart& start : starts) all.push_back({.start = start});
-  if (watch_in_lanes(study, set, all)) return all;
+  if (run_tubes_in_lanes(study, set, all)) return all;
   for (TubeWatch& one : all) {
     one = {.start = one.start};
-    watch_alone(study, set, one);
+    run_tube_alone(study, set, one);
   }
   return all;
 }
 
-constexpr std::size_t kept_together = 32;  // the widest block of lanes
+constexpr std::size_t starts_per_file = 32;  // the widest block of lanes
 
 std::string json_of(const std::vector<TubeWatch>& watches) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -168,7 +168,7 @@ std::string json_of(const std::vector<TubeWatch>& watches) {
 }
 
 /// Reads stored results. Returns an empty vector if the file is missing or contains something else.
-std::vector<TubeWatch> kept_watches(const std::filesystem::path& file, std::span<const TubeStart> starts) {
+std::vector<TubeWatch> read_tube_results(const std::filesystem::path& file, std::span<const TubeStart> starts) {
   std::ifstream in(file);
   std::stringstream text;
   text << in.rdbuf();
@@ -235,14 +235,14 @@ std::vector<LateMotion> late_motions(Study& study) {
 std::vector<TubeWatch> watch_tubes(const Study& study, const std::string& name, const TubeSet& set,
                                    std::span<const TubeStart> starts) {
   if (set.blocks == 0) return {};
-  std::vector<std::vector<TubeWatch>> parts((starts.size() + kept_together - 1) / kept_together);
+  std::vector<std::vector<TubeWatch>> parts((starts.size() + starts_per_file - 1) / starts_per_file);
   study.each(parts.size(), [&](std::size_t part) {
-    const std::size_t first = part * kept_together;
-    const auto some = starts.subspan(first, std::min(kept_together, starts.size() - first));
+    const std::size_t first = part * starts_per_file;
+    const auto some = starts.subspan(first, std::min(starts_per_file, starts.size() - first));
     const auto file = study.folder() / fmt::format("{}_{}.json", name, first);
-    parts[part] = kept_watches(file, some);
+    parts[part] = read_tube_results(file, some);
     if (!parts[part].empty()) return;
-    parts[part] = watch_some(study, set, some);
+    parts[part] = run_tube_group(study, set, some);
     write_text(file, json_of(parts[part]));
   });
   std::vector<TubeWatch> all;
@@ -270,8 +270,8 @@ void find_two_to_one(const Study& study, const TubeSet& set, TubeWatch& watch, s
     z = {bounce.q[0], bounce.q[1], bounce.p[0], bounce.p[1]};
     if (map->advance(z, -h, 1) && inside(z)) watch.two_to_one.push_back(bounce.step);
   });
-  for (std::int64_t steps = 0; steps < static_cast<std::int64_t>(blocks) * tube_block; steps += part_of_block) {
-    if (simulation->advance(part_of_block) != Outcome::done)
+  for (std::int64_t steps = 0; steps < static_cast<std::int64_t>(blocks) * tube_block; steps += steps_per_stop_check) {
+    if (simulation->advance(steps_per_stop_check) != Outcome::done)
       throw Error("a run of the T-tube ended: " + simulation->failure());
     study.breathe();
   }

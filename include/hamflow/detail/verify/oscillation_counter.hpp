@@ -11,7 +11,7 @@ namespace hamflow {
 /// quantity that only grows, such as an angle that is not wrapped, has no turns. When the range doubles, earlier turns
 /// were comparatively small, and counting starts again. The period is fixed after enough turns, because later samples
 /// of a long run may be further apart than one period.
-class Swings {
+class OscillationCounter {
  public:
   /// Oscillation until the end of a run.
   struct Seen {
@@ -35,7 +35,7 @@ class Swings {
   template <class Archive>
   void archive(Archive& ar) {
     ar(least_, most_, counted_range_, extreme_, at_, first_turn_, last_turn_, turns_, earlier_turns_, direction_,
-       looked_, apart_, noticed_, latest_turn_, longest_gap_, shortest_stay_, later_turns_);
+       last_sample_step_, apart_, recognised_at_, latest_turn_, longest_gap_, shortest_peak_, later_turns_);
   }
 
  private:
@@ -53,13 +53,13 @@ class Swings {
   std::int64_t turns_ = 0;
   std::int64_t earlier_turns_ = 0;
   int direction_ = 0;
-  std::int64_t looked_ = 0;       // step of the last sample
-  std::int64_t apart_ = 0;        // distance of the last two samples, in steps
-  std::int64_t noticed_ = 0;      // sample at which the last turn was recognised
-  std::int64_t latest_turn_ = 0;  // last turn, including turns that are not used for the period
-  std::int64_t longest_gap_ = 0;  // longest time between turns
+  std::int64_t last_sample_step_ = 0;  // step of the last sample
+  std::int64_t apart_ = 0;             // distance of the last two samples, in steps
+  std::int64_t recognised_at_ = 0;     // sample at which the last turn was recognised
+  std::int64_t latest_turn_ = 0;       // last turn, including turns that are not used for the period
+  std::int64_t longest_gap_ = 0;       // longest time between turns
   // shortest time between the recognition of two turns, which is the duration of a peak
-  std::int64_t shortest_stay_ = 0;
+  std::int64_t shortest_peak_ = 0;
   double later_turns_ = 0;  // turns that are not used for the period, including missed ones
 };
 

@@ -1,4 +1,4 @@
-#include "hamflow/detail/verify/turns.hpp"
+#include "hamflow/detail/verify/turning_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,13 +38,13 @@ std::optional<double> median_period(const std::vector<double>& series, double no
   const std::vector<double> places = turns(series, noise);
   std::vector<double> periods;
   for (std::size_t i = 0; i + 2 < places.size(); ++i) periods.push_back(places[i + 2] - places[i]);
-  if (periods.size() < TurnWatch::fewest_periods) return std::nullopt;
+  if (periods.size() < TurningPointObserver::fewest_periods) return std::nullopt;
   std::sort(periods.begin(), periods.end());
   const std::size_t half = periods.size() / 2;
   return periods.size() % 2 == 1 ? periods[half] : (periods[half - 1] + periods[half]) / 2;
 }
 
-void TurnWatch::restart(std::int64_t step, double dt, bool active) {
+void TurningPointObserver::restart(std::int64_t step, double dt, bool active) {
   found_ = fastest();
   longest_ = longest_step();
   samples_.clear();
@@ -54,9 +54,11 @@ void TurnWatch::restart(std::int64_t step, double dt, bool active) {
   active_ = active;
 }
 
-double TurnWatch::longest_step() const { return last_ > first_ ? std::max(longest_, std::abs(dt_)) : longest_; }
+double TurningPointObserver::longest_step() const {
+  return last_ > first_ ? std::max(longest_, std::abs(dt_)) : longest_;
+}
 
-std::int64_t TurnWatch::next_due(std::int64_t step) const {
+std::int64_t TurningPointObserver::next_due(std::int64_t step) const {
   if (!active_) return never;
   const std::int64_t since = std::max(step, last_ + 1) - first_;
   if (since <= window) return first_ + std::max<std::int64_t>(since, 0);
@@ -67,7 +69,7 @@ std::int64_t TurnWatch::next_due(std::int64_t step) const {
   return begin > never / 4 ? never : first_ + 2 * begin;
 }
 
-Verdict TurnWatch::observe(const Frame& frame) {
+Verdict TurningPointObserver::observe(const Frame& frame) {
   if (frame.step != last_ + 1) samples_.clear();
   last_ = frame.step;
   stride_ = (frame.q.size() + most_coordinates - 1) / most_coordinates;
@@ -80,13 +82,13 @@ Verdict TurnWatch::observe(const Frame& frame) {
   return Verdict::go_on;
 }
 
-std::optional<FastestTurns> TurnWatch::fastest() const {
+std::optional<FastestOscillation> TurningPointObserver::fastest() const {
   const auto now = in_window();
   if (!now || !found_) return now ? now : found_;
   return now->period / std::abs(now->dt) < found_->period / std::abs(found_->dt) ? now : found_;
 }
 
-std::optional<FastestTurns> TurnWatch::in_window() const {
+std::optional<FastestOscillation> TurningPointObserver::in_window() const {
   const std::size_t rows = width_ == 0 ? 0 : samples_.size() / width_;
   if (rows < fewest_periods + 2) return std::nullopt;
   std::vector<std::vector<double>> series(width_, std::vector<double>(rows));
@@ -101,7 +103,7 @@ std::optional<FastestTurns> TurnWatch::in_window() const {
     range = std::max(range, *high - *low);
   }
   if (!std::isfinite(range)) return std::nullopt;
-  std::optional<FastestTurns> best;
+  std::optional<FastestOscillation> best;
   for (std::size_t j = 0; j < width_; ++j) {
     // The noise that rounding or a loose tolerance causes in a coordinate at rest is not an oscillation.
     const auto steps = median_period(series[j], std::max(1e-6 * range, 1e-9 * largest[j]));
