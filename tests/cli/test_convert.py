@@ -106,11 +106,11 @@ observables = { d = "sqrt(x^2 + y^2)" }
 """
         self.write("named.toml", named)
         done = self.hamflow("convert", "named.toml", "--to", "polar", "-o", "polar.toml")
-        self.assertIn("left out of the converted scenario: run.events, run.section, output.observables", done.stderr)
+        self.assertIn(": run.events, run.section, output.observables (written in the old coordinates)", done.stderr)
         self.summary("polar.toml")
         self.hamflow("run", "named.toml", "--out", "named.run", "--set", "run.steps=60")
         done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.h5")
-        self.assertIn("left out of the converted scenario: run.events, run.section, output.observables", done.stderr)
+        self.assertIn(": run.events, run.section, output.observables (written in the old coordinates)", done.stderr)
         self.assertIn("left out of the scenario in polar.h5: ", done.stderr)
         done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.csv")
         self.assertIn("note: the columns step, angular_momentum, d of the run were left out", done.stderr)

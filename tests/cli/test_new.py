@@ -58,7 +58,7 @@ class New(CommandCase):
         self.assertEqual(s["method"], "cg(2,6)")
         done = self.hamflow("new", "double-pendulum", "--method", "stv4", status=2)
         self.assertIn("--method: error: ", done.stderr)
-        self.assertIn("did you mean kahan-li8?", self.hamflow("new", "pendulum", "--method", "kahan-li9", status=2).stderr)
+        self.assertIn("did you mean kahan-li6?", self.hamflow("new", "pendulum", "--method", "kahan-li9", status=2).stderr)
 
     def test_every_key_is_explained(self):
         seen = set()

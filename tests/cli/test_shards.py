@@ -136,7 +136,7 @@ class Shards(CommandCase):
                 (("s.toml", *VARY, "--shard", "0/2", "--figure", "x.svg"), "allowed with --merge DIR"),
                 (("s.toml", "--merge", "x"), "found --merge with a scenario"),
                 (("--merge", "x", "--resume"), "found --merge with --resume"),
-                (VARY, "scenario: error: missing"),
+                (VARY, "scenario: missing; allowed a TOML file, or --merge DIR"),
                 (("s.toml",), "--vary: error: found none")):
             self.assertIn(message, self.sweep(*words, status=2).stderr)
         for words, message in (
