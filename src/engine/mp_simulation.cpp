@@ -71,7 +71,7 @@ class MpSimulation final : public Simulation {
     });
   }
   std::vector<WallCount> wall_counts() const override { return inner_->wall_counts(); }
-  void tell_bounces(std::function<void(const Bounce&)> told) override { inner_->tell_bounces(std::move(told)); }
+  void on_bounce(std::function<void(const Bounce&)> callback) override { inner_->on_bounce(std::move(callback)); }
   std::vector<std::byte> save() const override {
     return in_scope([&] { return inner_->save(); });
   }

@@ -203,7 +203,7 @@ std::optional<std::pair<std::size_t, std::size_t>> coinciding_images(const std::
 }
 
 /// Refuses particles outside the container, and two particles at one point, where phi is undefined.
-std::string refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
+StartRefusal refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
   const Parameters<double> given(texts);
   const auto space = static_cast<std::size_t>(given[Keys::dimension]);
   const std::size_t particles = q.size() / space;
@@ -212,11 +212,11 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
     for (std::size_t k = 0; k < space; ++k) square += q[i * space + k] * q[i * space + k];
     const bool outside =
         kind.shape.container == ContainerKind::circle && !(square < given[Keys::radius] * given[Keys::radius]);
-    const std::string who = "particle " + std::to_string(i + 1) + " at ";
-    if (outside) {
-      return who + shortest(std::sqrt(square)) +
-             " from the origin, on or beyond the soft wall; allowed below radius = " + shortest(given[Keys::radius]);
-    }
+    if (!outside) continue;
+    return {"particle " + std::to_string(i + 1) + " at " + shortest(std::sqrt(square)) +
+                " from the origin, on or beyond the soft wall; allowed below radius = " + shortest(given[Keys::radius]),
+            Keys::radius,
+            {i + 1}};
   }
   if (given.has("softening") && given["softening"] > 0) return {};
   std::vector<std::size_t> order(particles);
@@ -229,14 +229,17 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
   for (std::size_t k = 1; k < particles; ++k) {
     const auto [a, b] = std::minmax(order[k - 1], order[k]);
     if (!std::equal(place(a), end(a), place(b))) continue;
-    return "particles " + std::to_string(a + 1) + " and " + std::to_string(b + 1) +
-           " at one point; allowed different positions";
+    return {.message = "particles " + std::to_string(a + 1) + " and " + std::to_string(b + 1) +
+                       " at one point; allowed different positions",
+            .particles = {a + 1, b + 1}};
   }
   if (kind.shape.container != ContainerKind::periodic) return {};
   if (const auto same = coinciding_images(q, given.list(Keys::size))) {
-    return "particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
-           " at images of the same point in the periodic box; allowed different positions in a box of size = [" +
-           joined(given.list(Keys::size), shortest) + "]";
+    return {"particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
+                " at images of the same point in the periodic box; allowed different positions in a box of size = [" +
+                joined(given.list(Keys::size), shortest) + "]",
+            Keys::size,
+            {same->first + 1, same->second + 1}};
   }
   return {};
 }

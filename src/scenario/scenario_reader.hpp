@@ -103,8 +103,8 @@ class ScenarioReader {
   void check_walls();
   bool complain_of_soft_walls();
   void check_start(TomlTable& table);
-  void complain_of_start(TomlTable& table, const std::string& usual, const std::string& message);
-  void complain_of_particles(TomlTable& table, const std::string& usual, std::string message);
+  void complain_of_start(TomlTable& table, const std::string& usual, const StartRefusal& refusal);
+  void complain_of_particles(TomlTable& table, const std::string& usual, const StartRefusal& refusal);
   bool check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }

@@ -299,10 +299,8 @@ void ScenarioReader::check_start(TomlTable& table) {
   }
   // The other checks need a start that satisfies the constraints.
   if (problem.residuals && !check_constraints(table, start)) return;
-  const std::string why_not = problem.refused_start(request.parameters, start.q);
-  if (!why_not.empty()) {
-    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial",
-                      "found " + why_not);
+  if (const StartRefusal refusal = problem.refused_start(request.parameters, start.q); !refusal.message.empty()) {
+    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", refusal);
     return;
   }
   const bool unsolved = std::any_of(start.p.begin(), start.p.end(), [](double p) { return !std::isfinite(p); });
@@ -315,7 +313,7 @@ void ScenarioReader::check_start(TomlTable& table) {
   if (!problem.regular(request.parameters, start.q, start.p)) {
     complain_of_start(
         table, geometric ? "orbit" : "initial",
-        "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
+        {"a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula});
     return;
   }
 }
@@ -347,8 +345,9 @@ std::string largest_of(const Request& request, const Frame& at, double sum, cons
 }  // namespace
 
 /// Complains at the key that gives the start.
-void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& message) {
-  scenario_.problem->particles ? complain_of_particles(table, usual, message) : table.complain(usual, message);
+void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const StartRefusal& refusal) {
+  scenario_.problem->particles ? complain_of_particles(table, usual, refusal)
+                               : table.complain(usual, "found " + refusal.message);
 }
 
 /// Checks that the start lies on the constraints and its velocity is tangent to them.

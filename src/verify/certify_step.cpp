@@ -48,7 +48,7 @@ struct StepDefect {
   double error = 0;
   double noise = 0;  // the part of the error that is not a smooth function of h
   bool is_smooth() const { return noise <= smooth; }
-  bool is_told() const { return is_smooth() && error >= least_error_over_rounding * rounding; }
+  bool is_decided() const { return is_smooth() && error >= least_error_over_rounding * rounding; }
   bool is_kept() const { return defect <= 4 * rounding; }
   bool is_violated() const { return defect > 32 * rounding && defect > largest_solver_share * error; }
 };
@@ -78,8 +78,9 @@ std::string why_undecided(const std::vector<StepDefect>& votes) {
         "noise",
         vote.h, vote.error, 100 * std::min(vote.noise, 1.0));
   }
-  const auto told = std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_told(); });
-  if (told == 0) {
+  const auto decided =
+      std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_decided(); });
+  if (decided == 0) {
     return fmt::format(
         "the step is not a smooth function of q and p: its derivatives by differences are uncertain by {:.1e} with "
         "h = {:.3g}, where the error of the step is {:.1e}",
@@ -102,7 +103,7 @@ PropertyVerdict verdict_of(const std::vector<StepDefect>& votes, const std::stri
     }
     if (!vote.is_kept()) {
       between = &vote;
-    } else if (vote.is_told()) {
+    } else if (vote.is_decided()) {
       ++kept;
     }
     is_exact = is_exact && vote.is_kept() && vote.error <= exact_to_rounding;
@@ -598,7 +599,7 @@ class StepExamination {
     std::vector<std::vector<StepDefect>> kept(names().size());
     const auto is_done = [](const std::vector<StepDefect>& votes) {
       return std::any_of(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_violated(); }) ||
-             std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_told(); }) >= 2;
+             std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_decided(); }) >= 2;
     };
     std::string no_reversed_step;
     for (int k = 0; k < 6; ++k, h *= 2) {
@@ -641,7 +642,7 @@ class StepExamination {
   }
   /// Steps whose error is at rounding level are dropped, unless all steps are.
   static void add(std::vector<StepDefect>& votes, const StepDefect& vote) {
-    if (vote.is_told()) std::erase_if(votes, [](const StepDefect& before) { return !before.is_told(); });
+    if (vote.is_decided()) std::erase_if(votes, [](const StepDefect& before) { return !before.is_decided(); });
     votes.push_back(vote);
   }
 

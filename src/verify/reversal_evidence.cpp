@@ -405,7 +405,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
 std::int64_t first_bounce(const Request& request, std::int64_t steps, const ContinueQuestion& go_on) {
   const auto simulation = second_simulation(request);
   std::int64_t first = 0;
-  simulation->tell_bounces([&](const Bounce& bounce) {
+  simulation->on_bounce([&](const Bounce& bounce) {
     if (first == 0) first = bounce.step;
   });
   (void)run(*simulation, steps, {}, [&](std::int64_t) { return first == 0 && (!go_on || go_on()); });
@@ -482,7 +482,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
-  simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
+  simulation->on_bounce([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
   StoredStates way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
   Reversal reversal;

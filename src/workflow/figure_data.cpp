@@ -354,7 +354,7 @@ FigureSamples first_steps_of(const RunForFigure& run) {
   Frame frame;
   const auto& walls = scenario.request.walls;
   if (walls && walls->rule == WallRule::event) {  // the drawn path has corners at the bounces
-    simulation->tell_bounces([&](const Bounce& bounce) {
+    simulation->on_bounce([&](const Bounce& bounce) {
       first_steps.t.push_back(bounce.time);
       for (std::size_t i = 0; i < n; ++i) {
         first_steps.q[i].push_back(bounce.q[i]);

@@ -107,7 +107,7 @@ class ScenarioRun {
       recorder_ = std::make_unique<Recorder>(scenario_, fs::path(), std::string(), nullptr,
                                              [this] { simulation_->restart_energy_range(); });
     }
-    if (recorder_) simulation_->tell_bounces([this](const Bounce& bounce) { recorder_->append(bounce); });
+    if (recorder_) simulation_->on_bounce([this](const Bounce& bounce) { recorder_->append(bounce); });
     measures_.emplace(scenario_, *simulation_, recorder_.get());
     std::vector<NamedObserver> archived = measures_->observers();
     archived.push_back({"energy_blocks", &blocks_});
@@ -224,7 +224,7 @@ class ScenarioRun {
         if (recorder_) {
           recorder_->flush_if_due();
           if (checkpoints_) checkpoints_->write_if_due();
-          if (!recorder_->records_more_bounces()) simulation_->tell_bounces({});  // unreported bounces cost less
+          if (!recorder_->records_more_bounces()) simulation_->on_bounce({});  // unreported bounces cost less
         }
         return !settings_.pulse || settings_.pulse(step);
       });

@@ -59,7 +59,7 @@ void add_passing_particles(const Sweep& sweep, const SweepRequest& request, std:
   MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
   std::size_t count = 0;
   std::size_t first = 0;
-  std::string told;
+  std::string first_warning;
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     const MemberRow& row = sweep.rows()[member];
     if (row.status != Outcome::done || row.nonsense || row.steps == 0) continue;
@@ -74,11 +74,11 @@ void add_passing_particles(const Sweep& sweep, const SweepRequest& request, std:
     std::string why = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
     if (why.empty()) continue;
     if (count++ == 0) first = member;
-    if (told.empty()) told = std::move(why);
+    if (first_warning.empty()) first_warning = std::move(why);
   }
   if (count == 0) return;
-  warnings.push_back(
-      {"long_step", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)});
+  warnings.push_back({"long_step", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(),
+                                               first, first_warning)});
 }
 
 /// Reads the varied keys. Errors in the request other than those of the scenario are added to `wrong`.

@@ -319,8 +319,8 @@ void add_passing_particles(const Scenario& scenario, const Frame& end, std::vect
   Frame start;
   start.q = scenario.start_q;
   start.p = scenario.start_p;
-  const std::string told = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
-  if (!told.empty()) all.push_back({"long_step", told});
+  const std::string passing = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
+  if (!passing.empty()) all.push_back({"long_step", passing});
 }
 
 /// Returns the product q.p of a state in Cartesian coordinates, whose sign is the sign of the radial velocity.
