@@ -479,6 +479,7 @@ ProblemEntry entry_of(const Words& choices) {
                  .spread = 0.03,
                  .step = 0.011,
                  .time = 1.3};
+  info.example.steps = 1000;
   info.example.keys = {{o.particles_per_side.name, "5"},
                        {o.start.name, ""},
                        {o.seed.name, ""},  // a second is enough

@@ -132,7 +132,7 @@ std::string summary_text(const Summary& s) {
                            number_text(s.constraints->velocity, "{:.3g}"));
   }
   if (s.exact) row("exact", exact_text(*s.exact));
-  if (s.orbit) row("orbit", orbit_text(*s.orbit));
+  if (s.orbit) row("exact orbit", orbit_text(*s.orbit));
   for (const Body& body : s.bodies) {
     const auto list = [](const auto& x) { return list_text({x.begin(), x.end()}); };
     row("body",

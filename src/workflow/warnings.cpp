@@ -335,6 +335,25 @@ double radial(const ProblemEntry& problem, const Texts& parameters, const std::v
   return sum;
 }
 
+/// Warns if the run ends far from the known orbit of its start. The energy scale of a narrow ellipse is large at the
+/// pericentre, so an energy error below the scale can turn the orbit into a hyperbola.
+void add_left_orbit(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
+  constexpr double most = 2;  // a distance beyond the orbit by this factor is a wrong motion
+  if (motion.orbit == nullptr || motion.orbit->falls_into_centre) return;
+  const double smallest = motion.orbit->r_min.value;
+  const double largest = motion.orbit->r_max.value;
+  Frame at = motion.end;
+  if (scenario.problem->to_reference) at = scenario.problem->to_reference(scenario.request.parameters, at.q, at.p);
+  double square = 0;
+  for (const double x : at.q) square += x * x;
+  const double r = std::sqrt(square);
+  if (!(r > most * largest) && !(most * r < smallest)) return;
+  all.push_back({"left_orbit", fmt::format("the distance from the centre is {:.3g} at the end, but the orbit of this "
+                                           "start stays between {:.3g} and {:.3g}, so this result is meaningless; try "
+                                           "a smaller dt",
+                                           r, smallest, largest)});
+}
+
 /// Returns whether an orbit that falls into the centre has reached it by time t. From apocentre to centre it takes half
 /// a radial period; a closed form may continue beyond the centre, outwards.
 bool has_fallen(const Scenario& scenario, double period, double t) {
@@ -421,6 +440,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   }
   if (motion.turns != nullptr && !is_free_motion(scenario, end)) add_long_step(scenario, motion, all);
   if (end.step > 0) add_fast_springs(scenario, all);
+  if (end.step > 0) add_left_orbit(scenario, motion, all);
   if (all.empty() && end.step > 0) add_passing_particles(scenario, end, all);
   if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
       has_fallen(scenario, motion.orbit->radial_period, end.time)) {

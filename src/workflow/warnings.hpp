@@ -17,6 +17,7 @@ namespace hamflow {
 /// - long_step: dt is above a tenth of the shortest period seen, or of the known period of the orbit if none was seen;
 /// - parted_copies: the two copies of the state that tao2 and tao4 carry have separated;
 /// - falls_into_centre: the orbit reaches a singular centre before the run ends;
+/// - left_orbit: the distance from the centre at the end is not near the orbit of the start;
 /// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary complete except for its warnings   @param turns null: nothing watched for steps that are too long
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,

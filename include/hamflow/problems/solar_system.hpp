@@ -26,7 +26,7 @@ class SolarSystem : public Gravity<R> {
                     .frame = Gravity<R>::frame_key(StartFrames::barycentric),
                     // Days. Momenta are as small as 1e-11; a larger spread would eject the planets.
                     .region = {.spread = 1e-13, .step = 50, .time = 1000},
-                    .example = {.dt = 20, .steps = 10000}};  // Jupiter takes 4333 days for one round
+                    .example = {.dt = 20, .steps = 80000}};  // 17 revolutions of Pluto
     for (const Body& body : bodies) {
       for (const char* x : body.position) all.default_q.push_back(x);
       for (const char* v : body.velocity) all.default_p.push_back(std::string(body.mass) + "*(" + v + ")");
