@@ -292,7 +292,7 @@ void declare(CLI::App& app, Options& options) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // then a write beyond the limit of file sizes fails like a write to a full disk
-  CLI::App app{"Carry out the experiments of both theses: figures, tables, statements, and verdicts"};
+  CLI::App app{"Repeat the experiments of both theses and check their figures, tables and statements"};
   Options options;
   declare(app, options);
   int status = exit_done;

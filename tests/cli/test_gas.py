@@ -158,7 +158,7 @@ class Gas(GasCase):
         box = 'container = { kind = "box", size = [4.1, 4.3] }'
         self.write("gas.toml", GAS % box)
         notes = self.hamflow("run", "gas.toml", "--out", "none", "--set", "run.arithmetic=lattice").stderr
-        self.assertEqual(notes.count("half a unit of the lattice"), 1, notes)
+        self.assertEqual(notes.count("half a grid spacing"), 1, notes)
 
     def test_the_last_sample_of_a_run(self):
         self.write("gas.toml", GAS % "")
