@@ -104,24 +104,26 @@ void claim_regular(Study& study, const LateMotion& late) {
                                       of.shorter, time / 4, of.longer, time)});
     }
   }
-  study.claim({fmt::format("regular_{}", late.name),
-               fmt::format("a late motion of {} is regular, with the rule of the listing", late.name), "regular"},
-              at_most(3,
-                      "largest Lyapunov exponent divided by log T/T: 1 if tangent vectors grow like t; above 30 for a chaotic "
-                      "motion"),
-              measured, Grounds::program,
-              fmt::format("{:g} time units, a few rounds: the default size", least_time_for_exponents));
+  study.claim(
+      {fmt::format("regular_{}", late.name),
+       fmt::format("a late motion of {} is regular, with the rule of the listing", late.name), "regular"},
+      at_most(3,
+              "largest Lyapunov exponent divided by log T/T: 1 if tangent vectors grow like t; above 30 for a chaotic "
+              "motion"),
+      measured, Grounds::program,
+      fmt::format("{:g} time units, a few rounds: the default size", least_time_for_exponents));
 }
 
 }  // namespace
 
 void claim_late_motions(Study& study) {
   const double time = 0.01 * static_cast<double>(steps_in_true_flow(study));
-  TextTable table{"neighbourhood",
-                  "Neighbours of a late motion, with Q1 moved: with the rule of the listing, and with located bounces (stv4)",
-                  {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
-                   fmt::format("over {:g}", 4 * time), "regular (at most 3 log T/T)"},
-                  {}};
+  TextTable table{
+      "neighbourhood",
+      "Neighbours of a late motion, with Q1 moved: with the rule of the listing, and with located bounces (stv4)",
+      {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
+       fmt::format("over {:g}", 4 * time), "regular (at most 3 log T/T)"},
+      {}};
   TextTable partings{
       "partings",
       "Distance of neighbours of a late motion in the second half of a run, divided by their distance at the start; "

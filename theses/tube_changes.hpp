@@ -105,8 +105,8 @@ inline Measured distance_of(const std::string& printed, const Ensembles& changes
   const double number = std::stod(printed);
   const double near = std::abs(number - (changes.near.*of).mean), grid = std::abs(number - (changes.grid.*of).mean);
   return {std::min(near, grid), changes.scatter(of),
-          fmt::format("{} {}: {:.4g} and {:.4g} from the means of {}; +- for one other start", body, printed, near, grid,
-                      changes.told())};
+          fmt::format("{} {}: {:.4g} and {:.4g} from the means of {}; +- for one other start", body, printed, near,
+                      grid, changes.told())};
 }
 
 /// Adds to the uncertainty of a distance that was measured with another rule or step size than the thesis used: the

@@ -40,30 +40,30 @@ void claim_two_to_one(Study& study) {
     means.push_back(spread_of(of_step).mean);
     errors.push_back(spread_of(of_step).standard_error());
   }
-  study.claim(
-      {"one_to_one",
-       "each state is reached from only one state, as with every reversible or symplectic step, also with the "
-       "rule of pages 84 and 103",
-       "robust symplectic algorithms", "111"},
-      none_of("two-to-one rejections among 10^9, or pairs of states with the same image"),
-      {{1e9 * means[1], 3e9 * errors[1], "share of the layer before the walls, dt = 0.01, StV4, eps = 0.6"},
-       explicit_pair()},
-      Grounds::ways);
+  study.claim({"one_to_one",
+               "each state is reached from only one state, as with every reversible or symplectic step, also with the "
+               "rule of pages 84 and 103",
+               "robust symplectic algorithms", "111"},
+              none_of("two-to-one rejections among 10^9, or pairs of states with the same image"),
+              {{1e9 * means[1], 3e9 * errors[1], "share of the layer before the walls, dt = 0.01, StV4, eps = 0.6"},
+               explicit_pair()},
+              Grounds::ways);
   const Spread power = spread_of(powers);
-  TextTable rates_of{"two_to_one_rates",
-                     "Two-to-one rejections among 10^9, by the geometry of the layers before the walls, StV4, eps = 0.6",
-                     {"dt", "number among 10^9", "standard error"},
-                     {}};
+  TextTable rates_of{
+      "two_to_one_rates",
+      "Two-to-one rejections among 10^9, by the geometry of the layers before the walls, StV4, eps = 0.6",
+      {"dt", "number among 10^9", "standard error"},
+      {}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     rates_of.rows.push_back(
         {fmt::format("{:g}", steps[i]), fmt::format("{:.3g}", 1e9 * means[i]), fmt::format("{:.2g}", 1e9 * errors[i])});
   }
   study.table(std::move(rates_of));
-  study.note(
-      fmt::format("The share of two-to-one rejections falls like dt to the power {:.2f} +- {:.2f} (3 standard errors) from "
-                  "dt = 0.01 to 0.001. A power of 2 is expected, because the forward and the backward step differ by "
-                  "O(dt^3) in a layer of width O(dt).",
-                  power.mean, 3 * power.standard_error()));
+  study.note(fmt::format(
+      "The share of two-to-one rejections falls like dt to the power {:.2f} +- {:.2f} (3 standard errors) from "
+      "dt = 0.01 to 0.001. A power of 2 is expected, because the forward and the backward step differ by "
+      "O(dt^3) in a layer of width O(dt).",
+      power.mean, 3 * power.standard_error()));
   study.keep({"two_to_one", {{"dt", {steps.begin(), steps.end()}}, {"share", means}, {"error", errors}}});
 }
 
@@ -177,11 +177,12 @@ void draw_blocks(Study& study, const Counts& reject) {
     page.panels.push_back(panel_of_blocks(one));
     starts += (starts.empty() ? "" : "; ") + name_of_start(one.seen.start);
   }
-  study.draw("figure",
-             "Block means of the light body's kinetic energy in captured runs with the rule reject, before and after the "
-             "capture. Large dots mark blocks with a two-to-one rejection; they are counted up to the capture. " +
-                 starts,
-             std::move(page));
+  study.draw(
+      "figure",
+      "Block means of the light body's kinetic energy in captured runs with the rule reject, before and after the "
+      "capture. Large dots mark blocks with a two-to-one rejection; they are counted up to the capture. " +
+          starts,
+      std::move(page));
 }
 
 void tell_captures(Study& study, const Counts& reject) {
@@ -244,7 +245,8 @@ void claim_of_others(Study& study, const Counts& reject, const Counts& others, c
   study.claim(
       {"captures_" + others.name,
        "with " + what + " runs reach the late motion as often per bounce as with the listing's rule", "physics"},
-      at_least(0.5, "captures divided by those expected at reject's rate; nothing follows if fewer than 10 are expected"),
+      at_least(0.5,
+               "captures divided by those expected at reject's rate; nothing follows if fewer than 10 are expected"),
       measured, Grounds::program, first == 0 ? "runs in which reject captures: the default size" : decided_by);
 }
 
@@ -319,10 +321,11 @@ void claim_captures(Study& study, Counts& reject) {
                            least_stay)),
       blocks < 2 * tube_least_blocks
           ? std::vector<Measured>{}
-          : std::vector<Measured>{{static_cast<double>(reject.captured.size()), 0,
-                                   fmt::format(
-                                       "{} of {} runs of {} blocks with reject; {} more are regular in their means only",
-                                       reject.captured.size(), reject.runs, blocks, reject.regular_blocks_only)}},
+          : std::vector<
+                Measured>{{static_cast<double>(reject.captured.size()), 0,
+                           fmt::format(
+                               "{} of {} runs of {} blocks with reject; {} more are regular in their means only",
+                               reject.captured.size(), reject.runs, blocks, reject.regular_blocks_only)}},
       Grounds::program, "runs of some 10^7 steps: the default size");
   double without = 0, events = 0, tried = 0, longest = 0;
   const auto looked_at = std::min<std::size_t>(reject.captured.size(), 16);  // each is run again
@@ -340,9 +343,10 @@ void claim_captures(Study& study, Counts& reject) {
   if (looked_at > 0) {
     causes.push_back(
         {without, 0,
-         fmt::format("the first {} captures; the rejection happened at most {:.2g} blocks before. One happens every {:.3g} "
-                     "blocks, so by chance a share of {:.2g} of the captures would follow one so soon",
-                     looked_at, longest, tried / std::max(events, 1.0), 1 - std::exp(-events / std::max(tried, 1.0)))});
+         fmt::format(
+             "the first {} captures; the rejection happened at most {:.2g} blocks before. One happens every {:.3g} "
+             "blocks, so by chance a share of {:.2g} of the captures would follow one so soon",
+             looked_at, longest, tried / std::max(events, 1.0), 1 - std::exp(-events / std::max(tried, 1.0)))});
   }
   study.claim({"cause", "each capture happens in the block of 10^6 steps of a two-to-one rejection", "artefact"},
               none_of("captures without such a rejection in the block before the first regular one"), causes,

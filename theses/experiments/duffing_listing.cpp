@@ -114,18 +114,16 @@ void carry_out(Study& study) {
           calls, pages_of_calls,
           at_most(1e-6, "two roots to 1e-13 at each step; their difference grows where the motion is unstable"), apart,
           "largest difference of r from that with both calls in the order of the function's heading");
-    claim(
-        "order_costs_no_energy_",
-        "if the residual is first called as printed, with lambda and k exchanged, the energy error is no larger than "
-        "with the order of the function's heading",
-        calls, pages_of_calls, at_most(2, "ratio of the two largest |H - H0|, which are at rounding level"), more_energy,
-        "the largest of four dt");
-    claim(
-        "order_costs_no_iterations_",
-        "if the residual is first called as printed, with lambda and k exchanged, Newton's method takes no more "
-        "iterations than with the order of the function's heading",
-        calls, pages_of_calls, at_most(1, "ratio of the two mean numbers of iterations per step"), more_iterations,
-        "the largest of four dt");
+    claim("order_costs_no_energy_",
+          "if the residual is first called as printed, with lambda and k exchanged, the energy error is no larger than "
+          "with the order of the function's heading",
+          calls, pages_of_calls, at_most(2, "ratio of the two largest |H - H0|, which are at rounding level"),
+          more_energy, "the largest of four dt");
+    claim("order_costs_no_iterations_",
+          "if the residual is first called as printed, with lambda and k exchanged, Newton's method takes no more "
+          "iterations than with the order of the function's heading",
+          calls, pages_of_calls, at_most(1, "ratio of the two mean numbers of iterations per step"), more_iterations,
+          "the largest of four dt");
   }
 }
 

@@ -128,9 +128,9 @@ std::optional<Measurement> measured_row(Study& study, const Row& row, const std:
           ? fmt::format("{} with particles outside, by the listing's program, which does not detect them", lost.outside)
       : is_selected ? "the starts in which no particle passes the wall, which are not a sample of all"
                     : "no particle outside in any";
-  return Measurement{
-      position.mean, is_selected ? infinite : range_of_next(position.members) * position.deviation,
-      fmt::format("{} of {} starts, {}; mean error of momenta {}", position.members, starts, who, told_of(lost.momentum))};
+  return Measurement{position.mean, is_selected ? infinite : range_of_next(position.members) * position.deviation,
+                     fmt::format("{} of {} starts, {}; mean error of momenta {}", position.members, starts, who,
+                                 told_of(lost.momentum))};
 }
 
 /// What three steps come to: 0.01 and 0.001, of which one is the thesis' own, and one with which no particle tunnels.
@@ -251,11 +251,11 @@ void compare_arithmetics(Study& study) {
       if (name == "lattice") {
         std::vector<Measured> measured;
         if (!evaluations.empty()) measured.push_back({every_bit ? 0.0 : 1.0, 0, fmt::format("up to {} steps", most)});
-        study.claim(
-            {fmt::format("lattice_{}", side * side),
-             fmt::format("{} particles: the return is exact except for rounding, so on the lattice it is exact", side * side),
-             "exact return"},
-            none_of("runs that do not return every bit"), measured, Grounds::program, "the default size");
+        study.claim({fmt::format("lattice_{}", side * side),
+                     fmt::format("{} particles: the return is exact except for rounding, so on the lattice it is exact",
+                                 side * side),
+                     "exact return"},
+                    none_of("runs that do not return every bit"), measured, Grounds::program, "the default size");
       }
       if (evaluations.empty()) continue;
       study.keep({fmt::format("lost_{}_{}", side * side, name),
@@ -319,14 +319,15 @@ void claim_none(Study& study, const Study::Statement& statement, const std::stri
                 const std::string& how = {}) {
   std::vector<Measured> measured;
   if (of > 0) {
-    measured.push_back(seen_among(
-        number, of,
-        fmt::format("{} of {}, to t = {}{}{}", number, of, until, how,
-                    number > 0 ? ""
-                               : fmt::format("; with 95 % confidence at most {:.2g} % of all starts",
-                                             100 * largest_share_unseen(of)))));
+    measured.push_back(
+        seen_among(number, of,
+                   fmt::format("{} of {}, to t = {}{}{}", number, of, until, how,
+                               number > 0 ? ""
+                                          : fmt::format("; with 95 % confidence at most {:.2g} % of all starts",
+                                                        100 * largest_share_unseen(of)))));
   }
-  study.claim(statement, none_of_all(counted), measured, Grounds::program, "59 starts without a counter-example: --full");
+  study.claim(statement, none_of_all(counted), measured, Grounds::program,
+              "59 starts without a counter-example: --full");
 }
 
 /// Page 80, remedy 1: a smaller step.
@@ -357,14 +358,15 @@ void claim_smaller_steps(Study& study, const std::string& scale) {
                   scale,
               "remedy 1", "80"},
              "starts that end sooner with a tenth of the step size", sooner, starts);
-  study.claim({"smallest_dt_" + scale,
-               "a smaller step size helps: with dt = 0.0001 particles stay inside longer than with 0.01, 121 particles, "
-               "scale " +
-                   scale,
-               "remedy 1: \"Zeitschritt-Verkleinerung\", without a number", "80"},
-              longer.rule("starts in which they stay longer, by more than a step of 0.01,"),
-              {longer.measured(fmt::format("of {} starts; {} stay inside to t = {}", starts, inside, until))},
-              Grounds::program, "more starts");
+  study.claim(
+      {"smallest_dt_" + scale,
+       "a smaller step size helps: with dt = 0.0001 particles stay inside longer than with 0.01, 121 particles, "
+       "scale " +
+           scale,
+       "remedy 1: \"Zeitschritt-Verkleinerung\", without a number", "80"},
+      longer.rule("starts in which they stay longer, by more than a step of 0.01,"),
+      {longer.measured(fmt::format("of {} starts; {} stay inside to t = {}", starts, inside, until))}, Grounds::program,
+      "more starts");
 }
 
 /// Page 80, remedy 2: a higher power of the wall, by the listed program, whose factor S^-4 stays as it is.
@@ -404,13 +406,15 @@ void claim_exponents(Study& study, const std::string& scale) {
   const std::string where =
       ", if one passes with the power 1; factor S^-4 of the listing, dt = 0.001, 121 particles, scale " + scale;
   const std::string how = fmt::format(
-      ", by the listing's program; {} starts are not counted, because two particles came so close that the step was too "
+      ", by the listing's program; {} starts are not counted, because two particles came so close that the step was "
+      "too "
       "long and one flew off",
       count(&Found::is_after_collision));
   claim_none(study,
              {"exponent_later_" + scale, "the power 4 in place of 1 keeps particles inside longer" + where,
               "remedy 2: -p qi/(r^2 - qi.qi)^(p + 1), without a scale", "80"},
-             "starts in which a particle passes the wall no later", count(&Found::passes_no_later), count(&Found::counts), how);
+             "starts in which a particle passes the wall no later", count(&Found::passes_no_later),
+             count(&Found::counts), how);
   claim_none(study,
              {"exponent_" + scale, "with a suitable power of 2, 4, 8 in place of 1 no particle passes the wall" + where,
               "remedy 2: \"mit p >= 1 einer geeigneten Potenz\"", "80"},
@@ -453,12 +457,13 @@ void claim_gain(Study& study, const GasRun& run, int digits) {
          fmt::format("{} of {} starts, {} steps, {:.2g} digits lost in double{}", gain.members, starts, run.steps,
                      spread_of(gains.lost).mean, is_selected ? "; in the others a particle passes the wall" : "")});
   }
-  study.claim({fmt::format("compensation_{}_{}", run.start, run.dt),
-               fmt::format("compensated summation gains about as many digits as dt = {} has decimal places: {}; start {}", run.dt,
-                           digits, run.start),
-               fmt::format("{} digits", digits), "81"},
-              within(digits, 1, "digits gained in positions, to one digit"), measured,
-              Grounds::program, starts == 0 ? "the default size" : "more starts, if all particles stay inside");
+  study.claim(
+      {fmt::format("compensation_{}_{}", run.start, run.dt),
+       fmt::format("compensated summation gains about as many digits as dt = {} has decimal places: {}; start {}",
+                   run.dt, digits, run.start),
+       fmt::format("{} digits", digits), "81"},
+      within(digits, 1, "digits gained in positions, to one digit"), measured, Grounds::program,
+      starts == 0 ? "the default size" : "more starts, if all particles stay inside");
 }
 
 void remedies_and_compensation(Study& study) {

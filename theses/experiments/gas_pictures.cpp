@@ -73,13 +73,14 @@ void claim_inside(Study& study, GasRun run) {
     exact.arithmetic = "double-double";
     steps.push_back(one("double-double", there_and_back(study, exact)));
   }
-  study.claim({fmt::format("inside_{}_{}", run.dt, run.scale),
-               fmt::format("1200 steps there and back stay within the circle, dt = {}, scale {}", run.dt, run.scale),
-               "1200 steps"},
-              at_least(static_cast<double>(run.steps), "first step in which a particle is on the soft wall or beyond it"),
-              steps, in_more_digits && starts >= enough ? Grounds::ways : Grounds::program,
-              starts >= enough ? "the step in double-double: the default size"
-                               : fmt::format("{} starts: the default size", enough));
+  study.claim(
+      {fmt::format("inside_{}_{}", run.dt, run.scale),
+       fmt::format("1200 steps there and back stay within the circle, dt = {}, scale {}", run.dt, run.scale),
+       "1200 steps"},
+      at_least(static_cast<double>(run.steps), "first step in which a particle is on the soft wall or beyond it"),
+      steps, in_more_digits && starts >= enough ? Grounds::ways : Grounds::program,
+      starts >= enough ? "the step in double-double: the default size"
+                       : fmt::format("{} starts: the default size", enough));
 }
 
 /// What the listed program returns to with particles outside, which it does not notice.
@@ -137,19 +138,21 @@ void square(Study& study) {
                 as_told, {of_our_start(std::log10(back.position), as_told, told_of(back))}, Grounds::program,
                 "the thesis' own step, 0.01 or 0.001, with which no start was found that stays inside");
     if (run.scale != "per-side") continue;
-    study.draw("figure",
-               "Positions (3.2a), within the circle of radius 1.5, and momenta (3.2b) at the start (discs) and after the "
-               "return (rings), dt = 0.0001",
-               {study.info().title,
-                {within_the_circle({{"start", back.start.q, red}, {"return", back.end.q, green, 6}}),
-                 places("{/:Italic p_x}", "{/:Italic p_y}",
-                        {{"start", back.start.p, red}, {"return", back.end.p, green, 6}})}});
+    study.draw(
+        "figure",
+        "Positions (3.2a), within the circle of radius 1.5, and momenta (3.2b) at the start (discs) and after the "
+        "return (rings), dt = 0.0001",
+        {study.info().title,
+         {within_the_circle({{"start", back.start.q, red}, {"return", back.end.q, green, 6}}),
+          places("{/:Italic p_x}", "{/:Italic p_y}",
+                 {{"start", back.start.p, red}, {"return", back.end.p, green, 6}})}});
   }
   run = {.side = 21, .steps = study.sized(20, 1200, 1200), .arithmetic = "lattice"};
-  study.claim({"lattice", "the return is exact except for rounding, 441 particles, so on the lattice it is exact", "exact"},
-              none_of("runs that do not return every bit"),
-              {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
-                fmt::format("lattice, {} steps there and back", run.steps)}});
+  study.claim(
+      {"lattice", "the return is exact except for rounding, 441 particles, so on the lattice it is exact", "exact"},
+      none_of("runs that do not return every bit"),
+      {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
+        fmt::format("lattice, {} steps there and back", run.steps)}});
   run = {.side = 21, .steps = study.sized(300, 12000, 12000), .record_every = study.sized(5, 50, 20)};
   const Trajectory path = study.try_run("tracks", gas_scenario(run));
   std::vector<Places> tracks;
@@ -188,18 +191,20 @@ void claim_by_hand(Study& study, const GasRun& run, const Return& found) {
   const double apart = farthest(one.q(), other.q());
   one.put_crossers_at_the_origin(), other.put_crossers_at_the_origin();
   const bool same = one.q() == other.q() && one.p() == other.p();
-  study.claim({"one_to_one", "the return, with border crossers set to (0, 0) by hand, is due to a reversible map",
-               "set to 0,0 by hand", "77"},
-              at_least(2, "images of two states: a map that can be reversed is one-to-one"),
-              {{same ? 1.0 : 2.0, 0, fmt::format("two states that differ by {:.2g} in a particle beyond the border", apart)}},
-              Grounds::identity);
+  study.claim(
+      {"one_to_one", "the return, with border crossers set to (0, 0) by hand, is due to a reversible map",
+       "set to 0,0 by hand", "77"},
+      at_least(2, "images of two states: a map that can be reversed is one-to-one"),
+      {{same ? 1.0 : 2.0, 0, fmt::format("two states that differ by {:.2g} in a particle beyond the border", apart)}},
+      Grounds::identity);
   // Neighbours at half the equilibrium distance, as the scale of the square has them in the corner.
   for (const bool by_hand : {false, true}) {
     const ListedReturn back =
         listed_return(ListedGas(5, 0.001, found.start.q, found.start.p), run.steps, by_hand, [&] { study.breathe(); });
     const Rule rule = none_of("particles farther than half a spacing from where they started");
     study.claim({by_hand ? "by_hand" : "not_by_hand",
-                 fmt::format("all particles return, S = 5, dt = 0.001, border crossers {}", by_hand ? "set to (0, 0)" : "not moved"),
+                 fmt::format("all particles return, S = 5, dt = 0.001, border crossers {}",
+                             by_hand ? "set to (0, 0)" : "not moved"),
                  "all (!) return", by_hand ? "77" : ""},
                 rule,
                 {of_our_start(static_cast<double>(not_back(found.start.q, back.end, half_a_spacing)), rule,
@@ -250,9 +255,10 @@ void corner(Study& study) {
       int elsewhere = 0;
       for (std::size_t i = 0; i < turn.size(); i += 2) elsewhere += turn[i] < 0 || turn[i + 1] < 0 ? 1 : 0;
       if (is_theirs) {
-        const Rule rule = at_least(121.0 * 3 / 8,
-                                   "particles outside the upper right quarter, in which all start; an even spread has three "
-                                   "quarters there, and half of that is asked");
+        const Rule rule =
+            at_least(121.0 * 3 / 8,
+                     "particles outside the upper right quarter, in which all start; an even spread has three "
+                     "quarters there, and half of that is asked");
         study.claim({fmt::format("spread_{}_{}", dt, scale),
                      "after 2400 steps the particles are spread over the circle, " + where, "in the circle", "79"},
                     rule, {of_our_start(static_cast<double>(elsewhere), rule, "of 121")}, Grounds::program,
@@ -261,7 +267,8 @@ void corner(Study& study) {
       if (run.scale != "per-side" || run.dt != "0.001") continue;
       study.draw(
           "figure",
-          "Positions at the start (discs, 3.3a), after 2400 steps (squares, 3.3b) and after 2400 steps back (rings, 3.3c), "
+          "Positions at the start (discs, 3.3a), after 2400 steps (squares, 3.3b) and after 2400 steps back (rings, "
+          "3.3c), "
           "dt = 0.001, within the circle of radius 1.5",
           {study.info().title,
            {within_the_circle(

@@ -85,10 +85,9 @@ figures::Panel energy_panel(const std::string& of, const Trajectory& run) {
 void runge_kutta(Study& study) {
   const Trajectory figure = one_period(study, "rk4", "0.01", "double", "figure");
   const double rounding = 64 * unit_of_double;
-  study.claim(
-      {"energy", "the energy of the start", "-0.167875643"},
-      within(-0.1678756435, 0.5e-9 * (1 + 1e-6), "the printed digits are cut, not rounded"),
-      {{figure.report.energy.initial, rounding, "H of the start"}});
+  study.claim({"energy", "the energy of the start", "-0.167875643"},
+              within(-0.1678756435, 0.5e-9 * (1 + 1e-6), "the printed digits are cut, not rounded"),
+              {{figure.report.energy.initial, rounding, "H of the start"}});
   double least = 1e300, off = 0;
   std::string with, list;
   for (const char* dt : step_lengths) {
@@ -102,7 +101,8 @@ void runge_kutta(Study& study) {
               {{least, off, "|H - H0| in double-double, the smallest of six step sizes, dt = " + with}});
   study.note("Runge-Kutta's |H - H0| after a period: " + list + ".");
   study.keep({"energy", {{"t", figure.t}, {"energy", figure.energy}}});
-  study.draw("figure", "Energy of Runge-Kutta minus its value at the start, over one period with dt = 0.01 (dots); the line is 0",
+  study.draw("figure",
+             "Energy of Runge-Kutta minus its value at the start, over one period with dt = 0.01 (dots); the line is 0",
              {study.info().title, {energy_panel("", figure)}});
 }
 
@@ -138,14 +138,14 @@ void claim_precision(Study& study, const std::vector<Errors>& all) {
               {{end.double_final, 64 * unit_of_double, "|H - H0| in double, nearest with dt = " + end.dt}});
   const Errors& least = *std::min_element(
       all.begin(), all.end(), [](const Errors& a, const Errors& b) { return a.stv4_largest < b.stv4_largest; });
-  study.claim({"stv4_largest",
-               "StV4's error is machine precision all through the period, with a step size from 0.01 to 0.0005",
-               "machine precision"},
-              at_most(limit, "ten times the printed size"),
-              {{least.double_largest, least.double_rounding,
-                "largest |H - H0| in double, the smallest of six, with dt = " + least.dt},
-               {least.stv4_largest, least.rounding + 2 * unit_of_double * least.stv4_largest, "in double-double"}},
-              Grounds::ways);
+  study.claim(
+      {"stv4_largest", "StV4's error is machine precision all through the period, with a step size from 0.01 to 0.0005",
+       "machine precision"},
+      at_most(limit, "ten times the printed size"),
+      {{least.double_largest, least.double_rounding,
+        "largest |H - H0| in double, the smallest of six, with dt = " + least.dt},
+       {least.stv4_largest, least.rounding + 2 * unit_of_double * least.stv4_largest, "in double-double"}},
+      Grounds::ways);
   study.note(
       fmt::format("The printed -3.747e-15 has a sign, as the error at the end has; a largest absolute error has "
                   "none. StV4's largest error falls with dt^4, and would be of that size with dt = {:.1g}.",

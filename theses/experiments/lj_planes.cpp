@@ -99,9 +99,10 @@ void neighbouring_levels(Study& study) {
               within(4, 0.3, "halving dt divides it by 4"),
               {{at_coarse.of_h / at_fine.of_h, 0,
                 fmt::format("largest |H - H0| {:.3g} and {:.3g}", at_coarse.of_h, at_fine.of_h)}});
-  study.claim({"long", "they do so for a long time", "long"},
-              at_most(1.05, "the departure over 200 periods divided by that of the first; the samples have other phases"),
-              {{at_late.of_modified / at_coarse.of_modified, 0, "verlet, dt = 0.005"}});
+  study.claim(
+      {"long", "they do so for a long time", "long"},
+      at_most(1.05, "the departure over 200 periods divided by that of the first; the samples have other phases"),
+      {{at_late.of_modified / at_coarse.of_modified, 0, "verlet, dt = 0.005"}});
   std::vector<double> modified;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     modified.push_back(coarse.energy[i] + 0.005 * 0.005 * modified_part(coarse.q[i][0], coarse.p[i][0]));
@@ -144,10 +145,10 @@ void draw_way_back(Study& study, const std::string& method, const std::string& d
                           "back",
                           figures::finite_points(back.coordinate(0), back.momentum(0)),
                           {.colour = "#009e73"}});
-  study.draw(
-      "figure",
-      study.info().title + ": steps forward, with p below 0, and back after the momentum was reversed (dots), exact (line)",
-      {study.info().title, {panel}});
+  study.draw("figure",
+             study.info().title +
+                 ": steps forward, with p below 0, and back after the momentum was reversed (dots), exact (line)",
+             {study.info().title, {panel}});
 }
 
 void draw_plane(Study& study, const Trajectory& run) {
@@ -282,10 +283,9 @@ void way_back_of_stv4(Study& study) {
   }
   const double rounding = 0x1p-53;
   // 200 steps, each of 9 additions that round q or p; the motion may spread each by the stretching of the orbit.
-  study.claim(
-      {"return", "StV4 returns to its start up to machine precision", "(1.5, 0) to machine precision"},
-      at_most(200 * 9 * 100 * rounding, "1800 roundings, each stretched by at most 100 along the orbit"),
-      {{largest, 0, fmt::format("largest of five step sizes: {:.0f} units of rounding", largest / rounding)}});
+  study.claim({"return", "StV4 returns to its start up to machine precision", "(1.5, 0) to machine precision"},
+              at_most(200 * 9 * 100 * rounding, "1800 roundings, each stretched by at most 100 along the orbit"),
+              {{largest, 0, fmt::format("largest of five step sizes: {:.0f} units of rounding", largest / rounding)}});
   draw_way_back(study, "stv4", "0.01");
 }
 

@@ -265,13 +265,12 @@ void over_t(Study& study, bool absolute) {
   };
   const Trajectory series = pendulum_run(study, "reference", absolute, by_series);
   // A difference changes by less than 10 a second: the rates of both are below 5.
-  study.claim(
-      {"near", "the angles always stay near those of the linear solution", "immer in der Nähe"},
-      at_most(pi / 2,
-              "largest difference of an angle up to t = 26, compared with the amplitude pi/2 of the start; a "
-              "difference as large as this is not near"),
-      {{apart_from_linear(figure), 0.05, "cg(1,5), dt = 0.01"},
-       {apart_from_linear(series), 0.05, "Taylor series, tolerance 1e-15"}});
+  study.claim({"near", "the angles always stay near those of the linear solution", "immer in der Nähe"},
+              at_most(pi / 2,
+                      "largest difference of an angle up to t = 26, compared with the amplitude pi/2 of the start; a "
+                      "difference as large as this is not near"),
+              {{apart_from_linear(figure), 0.05, "cg(1,5), dt = 0.01"},
+               {apart_from_linear(series), 0.05, "Taylor series, tolerance 1e-15"}});
   std::array<std::vector<double>, 2> line;
   for (std::size_t i = 0; i < 2; ++i) {
     for (const double t : figure.t) line[i].push_back(linear.q(i, t));

@@ -283,7 +283,8 @@ void claim_binomial(Study& study) {
   const double by_path = away.t.back() + 1 / r_end;
   study.claim(
       {"finite_time",
-       "for k < 0 orbits in the binomial potential are hyperbolas, on which it takes infinite time to reach infinity; tested with " +
+       "for k < 0 orbits in the binomial potential are hyperbolas, on which it takes infinite time to reach infinity; "
+       "tested with " +
            outside.told(),
        "Hyperbel"},
       at_most(0, "1/time to infinity is 0 on a hyperbola"),

@@ -114,8 +114,8 @@ void claim_on_line(Study& study, const Trajectory& figure, const Trajectory& lin
   study.claim({"on_line", "with dt = 0.1 the dots lie on the line of the exact orbit", "dots on the line"},
               at_most(0.01, "distance from the line over the largest coordinate: a dot is drawn no smaller"),
               {{largest / size, sagitta / size + 1e-14,
-                fmt::format("the farthest dot is {:.2g} from the line, whose chords are at most {:.1g} off the orbit", largest,
-                            sagitta)}});
+                fmt::format("the farthest dot is {:.2g} from the line, whose chords are at most {:.1g} off the orbit",
+                            largest, sagitta)}});
 }
 
 /// The chapter prints energies to two decimals (-0.25, 3.25): half a unit of "1" would allow every orbit near it.

@@ -170,12 +170,13 @@ void carry_out(Study& study, bool absolute) {
   } else {
     const Rise tangent = rise_of(own.condition_tangent), other_tangent = rise_of(other.condition_tangent);
     const Ratios rises = ratios(tangent.rise, other_tangent.rise, of_mass, own.t);
-    study.claim({"rises_less", "in relative angles the condition of K_T hardly rises: less than in absolute ones",
-                 "kaum ein Anstieg", "125"},
-                at_most(1, "ratio of the two rises, each the largest over the smallest value; \"hardly\" has no number"),
-                {{rises.most, 1e-6,
-                  fmt::format("largest of all {}, up to which it rises by {:.3g}, in absolute angles by {:.3g}",
-                              rises.windows, tangent.rise.back(), other_tangent.rise.back())}});
+    study.claim(
+        {"rises_less", "in relative angles the condition of K_T hardly rises: less than in absolute ones",
+         "kaum ein Anstieg", "125"},
+        at_most(1, "ratio of the two rises, each the largest over the smallest value; \"hardly\" has no number"),
+        {{rises.most, 1e-6,
+          fmt::format("largest of all {}, up to which it rises by {:.3g}, in absolute angles by {:.3g}", rises.windows,
+                      tangent.rise.back(), other_tangent.rise.back())}});
     const Ratios of_inverse_mass =
         ratios(rise_of(own.condition_inverse_mass).rise, rise_of(other.condition_inverse_mass).rise, of_mass, own.t);
     study.claim({"mass_rises_more", "in relative angles the condition of M^-1 rises more than in absolute ones",
@@ -189,9 +190,8 @@ void carry_out(Study& study, bool absolute) {
                  "besser konditioniert", "125"},
                 at_most(1, "ratio of the largest cond(K_T) in relative and in absolute angles"),
                 {{largest.most, 1e-6, "largest of all " + largest.windows}});
-    study.note(
-        fmt::format("In {:.3g} of the steps cond(K_T) is larger in relative angles; only its peaks are lower.",
-                    worse / static_cast<double>(own.size() - 1)));
+    study.note(fmt::format("In {:.3g} of the steps cond(K_T) is larger in relative angles; only its peaks are lower.",
+                           worse / static_cast<double>(own.size() - 1)));
   }
   if (absolute) claim_determinants(study, own, other, of_mass);
   const std::vector<double> t(own.t.begin() + 1, own.t.end());

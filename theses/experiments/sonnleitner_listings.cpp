@@ -41,8 +41,8 @@ void factor_of_scale(Study& study) {
                  "d2ij*SkalierFaktor^2 (74); |qi - qj|^-12 - 2 |qi - qj|^-6 (67)", "67, 74"},
                 within(1, 1e-9, "listed force between neighbours at the start over that of the Hamiltonian"),
                 {{of_listing / of_text, 1e-15,
-                  fmt::format("{:.3g} over {:.3g}, for neighbours at distance {:g}", spacing * of_listing, spacing * of_text,
-                              spacing)}},
+                  fmt::format("{:.3g} over {:.3g}, for neighbours at distance {:g}", spacing * of_listing,
+                              spacing * of_text, spacing)}},
                 Grounds::identity);
     study.nothing_to_test(
         fmt::format("factor_{}", side * side),
@@ -52,7 +52,8 @@ void factor_of_scale(Study& study) {
     lengths += fmt::format("{}{:g} with {} particles", lengths.empty() ? "" : ", ", spacing * listed, side * side);
   }
   study.note(
-      "The text does not say what SkalierFaktor is for. If N were the number on a side, as on page 72, and not the number "
+      "The text does not say what SkalierFaktor is for. If N were the number on a side, as on page 72, and not the "
+      "number "
       "of particles, it would be 1/Abst, and neighbours would start one length of the potential apart. In the listing "
       "they start N + 1 lengths apart, " +
       lengths + ", which is almost an ideal gas. hamflow has both, as scale \"per-side\" and \"listing\".");

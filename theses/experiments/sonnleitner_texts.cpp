@@ -27,10 +27,11 @@ void reversible(Study& study) {
   const double q = there.q.back()[0], p = there.p.back()[0];
   const Trajectory back = fall(study, "back", q, -p);
   const double rounding = 0x1p-53;
-  study.claim({"returns", "if the motion continues with its momentum negated, it reaches its start after 2 T", "(q0, -p0)"},
-              at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
-              {{std::max(std::abs(back.q.back()[0] - q0), std::abs(back.p.back()[0] + p0)), 0,
-                "verlet on free-fall, which it solves exactly except for rounding"}});
+  study.claim(
+      {"returns", "if the motion continues with its momentum negated, it reaches its start after 2 T", "(q0, -p0)"},
+      at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
+      {{std::max(std::abs(back.q.back()[0] - q0), std::abs(back.p.back()[0] + p0)), 0,
+        "verlet on free-fall, which it solves exactly except for rounding"}});
   study.claim({"flow", "the motion is q0 + p0 T + T^2/2, p0 + T", "q0 + p0 T + T^2/2, p0 + T", "17"},
               at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
               {{std::max(std::abs(q - (q0 + p0 * T + T * T / 2)), std::abs(p - (p0 + T))), 0, "verlet"}});
@@ -51,15 +52,14 @@ void past_state(Study& study) {
     const auto [q, p] = flow(r, s, T);
     return std::max(std::abs(q - q0), std::abs(p - p0));
   };
-  study.claim(
-      {"past", "the motion that reaches (q0, p0) after T starts in the state that (q0, p0) reaches after T",
-       "q0 + p0 T + T^2/2, p0 + T"},
-      at_most(1e-12, "the flow over T leads from there to (q0, p0)"),
-      {{off(T), 1e-14,
-        fmt::format("distance, T = 2; from the state at -T it is {:.1g}. The equation below the answer, "
-                    "Phi(-T; r, s) = (q0, p0), is solved correctly, but it answers another question",
-                    off(-T))}},
-      Grounds::identity);
+  study.claim({"past", "the motion that reaches (q0, p0) after T starts in the state that (q0, p0) reaches after T",
+               "q0 + p0 T + T^2/2, p0 + T"},
+              at_most(1e-12, "the flow over T leads from there to (q0, p0)"),
+              {{off(T), 1e-14,
+                fmt::format("distance, T = 2; from the state at -T it is {:.1g}. The equation below the answer, "
+                            "Phi(-T; r, s) = (q0, p0), is solved correctly, but it answers another question",
+                            off(-T))}},
+              Grounds::identity);
 }
 
 /// f of V = q^-12 - 2 q^-6.
@@ -177,12 +177,13 @@ void sign_of_eps(Study& study) {
 /// Page 107: the kinetic energy of the light body is computed as m p^2/2, on page 106 as p^2/(2 m).
 void kinetic_energy_of_listing(Study& study) {
   const double m = 0.01, p = 1;
-  study.claim({"kinetic", "the listing's change of kinetic energy, massen(1)/2 p^2, is a change of kinetic energy",
-               "1/2*massen(1)*p^2"},
-              at_most(1e-12, "relative difference from p^2/(2 m) of page 106, for the masses and momenta of the listing"),
-              {{std::abs(m * p * p / 2 / (p * p / (2 * m)) - 1), 1e-15,
-                "m1 = 0.01, p1 = 1: it is 10^4 times too small; with m1 = 1, as in the table, both agree"}},
-              Grounds::identity);
+  study.claim(
+      {"kinetic", "the listing's change of kinetic energy, massen(1)/2 p^2, is a change of kinetic energy",
+       "1/2*massen(1)*p^2"},
+      at_most(1e-12, "relative difference from p^2/(2 m) of page 106, for the masses and momenta of the listing"),
+      {{std::abs(m * p * p / 2 / (p * p / (2 * m)) - 1), 1e-15,
+        "m1 = 0.01, p1 = 1: it is 10^4 times too small; with m1 = 1, as in the table, both agree"}},
+      Grounds::identity);
 }
 
 /// Page 85: the force of the pair changes P2 only a little, "by the conservation of momentum". The tubes take momentum.

@@ -73,7 +73,8 @@ void selected_volume(Study& study) {
   study.claim(
       {"selected", "the volume of chosen positions and their momenta is conserved, whatever the other coordinates do",
        "mu(M(t)) = mu(M(0))"},
-      within(1, 1e-3, "area of a small set of (Q1, P1) after the time 1 divided by that before, if Q2 and P2 begin equal"),
+      within(1, 1e-3,
+             "area of a small set of (Q1, P1) after the time 1 divided by that before, if Q2 and P2 begin equal"),
       {{determinant(by_tangents), 1e-8, "T-tube without walls, masses 1, eps = 0.6, tangents of stv4"},
        {determinant(by_flow), 1e-5, "divided differences of the exact flow"}},
       Grounds::ways);

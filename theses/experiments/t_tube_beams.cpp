@@ -69,12 +69,13 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
   // Where v1 changes its sign within the beam, slopes have no mean: the largest alone is a good part of their sum.
   const double largest = *std::max_element(all.slope.begin(), all.slope.end());
   const bool has_mean = largest < 0.01 * slope.mean * slope.members;
-  study.claim({"angle_" + name, what + ": the mean angle of the slope after reflection", word},
-              at_least(0, "the mean change of the angle in the stated direction is more than 3 standard errors above 0"),
-              {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
-                fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members,
-                            all.angle_before, angle.mean, angle.standard_error())}},
-              Grounds::program, "more trajectories: the default size, --full");
+  study.claim(
+      {"angle_" + name, what + ": the mean angle of the slope after reflection", word},
+      at_least(0, "the mean change of the angle in the stated direction is more than 3 standard errors above 0"),
+      {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
+        fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members, all.angle_before,
+                    angle.mean, angle.standard_error())}},
+      Grounds::program, "more trajectories: the default size, --full");
   study.claim(
       {"slope_" + name, what + ": the mean slope after reflection", word},
       at_least(0, "the mean change of the slope in the stated direction is more than 3 standard errors above 0"),
@@ -83,10 +84,10 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
         fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
                     slope.standard_error(), median(all.slope))}},
       Grounds::program,
-      has_mean
-          ? "more trajectories: the default size, --full"
-          : "nothing: v1 changes its sign within the beam, so 1/v1 has no mean for any number of trajectories; the claim of the "
-            "angle decides");
+      has_mean ? "more trajectories: the default size, --full"
+               : "nothing: v1 changes its sign within the beam, so 1/v1 has no mean for any number of trajectories; "
+                 "the claim of the "
+                 "angle decides");
   study.claim({"energy_" + name, what + ": the mean kinetic energy of the light body", sign < 0 ? "grows" : "falls"},
               at_least(0, "the mean change in the stated direction is more than 3 standard errors above 0"),
               {{-sign * (kinetic.mean - all.kinetic1_before), 3 * kinetic.standard_error(),

@@ -55,7 +55,8 @@ Measured range_of_windows(const std::vector<double>& numbers, const std::string&
   }
   double off = 0;
   for (const double other : all) off = std::max(off, std::abs(other - all[0]));
-  return {all[0], off, fmt::format("{}; +-: the largest difference from {} later windows of the same length", how, windows - 1)};
+  return {all[0], off,
+          fmt::format("{}; +-: the largest difference from {} later windows of the same length", how, windows - 1)};
 }
 
 /// No |P2| is larger than that with P1 = 0 at the place of least potential energy.
@@ -129,10 +130,11 @@ void late_momenta(Study& study) {
   const LateMotion late = late_motions(study).front();
   const Trajectory path = continued_late(study, late, 60000, "late");
   const std::vector<double> light = path.momentum(0), heavy = path.momentum(1);
-  study.claim({"late_heavy_captured", "P2 stays between its start values also late, in a motion that reject has captured",
-               "[-100, 100]", "89"},
-              at_most(110, "100 and a small deviation; the text does not say how small, a tenth is allowed"),
-              {range(heavy, "600 time units of the late motion +0.6I of S3.5")});
+  study.claim(
+      {"late_heavy_captured", "P2 stays between its start values also late, in a motion that reject has captured",
+       "[-100, 100]", "89"},
+      at_most(110, "100 and a small deviation; the text does not say how small, a tenth is allowed"),
+      {range(heavy, "600 time units of the late motion +0.6I of S3.5")});
   study.note(fmt::format(
       "P1 of the late motion drawn here stays within {:.4g}, not 4.29: each capture has a range of its own.",
       largest(light)));
@@ -244,10 +246,11 @@ void curves(Study& study) {
     const Trajectory path = early(study, rule);
     const Trajectory longer = from_start(study, rule, -0.6, windows * ten_minutes, "windows");
     const double heavy = largest(path.momentum(1));
-    study.claim({fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
-                as_printed("100.3"),
-                {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; +-: up to the bound by the energy"}},
-                Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
+    study.claim(
+        {fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
+        as_printed("100.3"),
+        {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; +-: up to the bound by the energy"}},
+        Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
     study.claim({fmt::format("light_{}", rule), fmt::format("range of P1 during the transient, {}", rule), "4.5"},
                 as_printed("4.5"), {range_of_windows(longer.momentum(0), "first 600 time units")}, Grounds::program,
                 "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");

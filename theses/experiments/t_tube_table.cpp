@@ -63,7 +63,9 @@ void claim_sum(Study& study, const Pair& pair, const Ensembles& changes) {
        fmt::format("both numbers of column {} belong to one run: their sum, {:+.4f}, is a change of potential energy",
                    pair.name, printed),
        fmt::format("{}, {}", pair.change1, pair.change2)},
-      at_most(0.3, "difference of the sum of the changes and V0 - <V>; reject loses less energy than this limit in a long run"),
+      at_most(
+          0.3,
+          "difference of the sum of the changes and V0 - <V>; reject loses less energy than this limit in a long run"),
       {{std::abs(printed - sum.mean), changes.scatter(&Changes::both), fmt::format("runs have {:+.4f}", sum.mean)},
        {std::abs(printed - even), std::abs(mean_potential(pair.eps, 2000) - mean_potential(pair.eps, 1000)),
         fmt::format("a motion that fills the rectangle evenly has {:+.4f}", even)}},
@@ -85,9 +87,8 @@ void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const std::o
   std::vector<Measured> measured;
   std::string decided_by = "longer runs: the default size, --full";
   if (changes && changes->measured() && (own || (usual && usual->measured()))) {
-    decided_by =
-        own ? "the thesis' own start to its last digit and its number of steps; nearby starts have other means"
-            : "nothing with this rule and step size, which are not the table's";
+    decided_by = own ? "the thesis' own start to its last digit and its number of steps; nearby starts have other means"
+                     : "nothing with this rule and step size, which are not the table's";
     Measured first = distance_of(pair.change1, *changes, &Changes::first, "kinEnKx");
     Measured second = distance_of(pair.change2, *changes, &Changes::second, "kinEnKy");
     if (!own) {
