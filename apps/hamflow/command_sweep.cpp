@@ -91,8 +91,8 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
 void print_missing(const ScenarioSweep& sweep, const SweepCommandOptions& options) {
   const std::vector<std::string> missing = sweep.missing_shards();
   if (missing.empty()) return;
-  print_notes({"members are missing of the shards " + joined(missing) +
-               "; run these with --resume, or all missing members with --resume and without --shard"},
+  print_notes({"members are missing from the shards " + joined(missing) +
+               "; run these shards with --resume, or all missing members with --resume and without --shard"},
               options.quiet);
 }
 

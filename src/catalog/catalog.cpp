@@ -108,8 +108,8 @@ static std::string refusal_of_constraints(const std::string& method, const Probl
            FormulaKeys::multiplier + "\", rk4, dop853, taylor";
   }
   return method +
-         " needs the gradient of an H, which the field with multipliers is not; allowed here: rk4, dop853, "
-         "taylor, or, with " +
+         " needs the gradient of H, but the field with multipliers is not a gradient; allowed here: rk4, "
+         "dop853, taylor, or, with " +
          form + " = \"" + FormulaKeys::manifold + "\", rattle, rattle4";
 }
 
@@ -152,7 +152,7 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
     return "allowed a whole number from 1 to " + std::to_string(most_threads);
   }
   if (step_control_of(request.method).reversible) {
-    return "threads can share only steps of equal length; allowed 1, or step_control = \"fixed\"";
+    return "threads can share only steps of equal size; allowed 1, or step_control = \"fixed\"";
   }
   if (!problem.has_pairwise_forces) {
     std::vector<std::string> all;
@@ -209,7 +209,7 @@ std::unique_ptr<Simulation> make_simulation_of(Request request) {
   const int digits = digits_beyond_double(full.arithmetic);
   const MethodFamily& family = *find_method(full.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
-  // Steps of varying length run behind virtual calls, one by one, in every arithmetic.
+  // Steps of varying size run behind virtual calls, one by one, in every arithmetic.
   if (digits > 0 || step_control_of(full.method).reversible) return problem.simulate_erased(full);
   const bool of_any_size = problem.dimension == 0;
   if (of_any_size && full.arithmetic != "lattice") {

@@ -116,11 +116,11 @@ std::vector<ParameterInfo> parameters_of(const Kind& kind) {
                    .required = true});
     if (kind.shape.cutoff == CutoffKind::smooth) {
       all.push_back({.name = Keys::inner,
-                     .meaning = "distance from which phi is faded out",
+                     .meaning = "distance from which phi is reduced smoothly to 0",
                      .range = Range::positive,
                      .required = true});
     }
-    all.push_back(number(Keys::skin, "0.3", "skin of the neighbour lists; does not change a bit", Range::positive));
+    all.push_back(number(Keys::skin, "0.3", "skin of the neighbour lists; does not change results", Range::positive));
   }
   return all;
 }
@@ -300,7 +300,7 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   const R h = evaluate_number<R>(request.dt);
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
-    // Walls and steps of varying length need virtual calls.
+    // Walls and steps of varying size need virtual calls.
     const bool needs_virtual_calls = request.walls || step_control_of(request.method).reversible;
     if (request.arithmetic == "lattice" && !needs_virtual_calls) {
       simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
@@ -341,7 +341,7 @@ StepInDouble step_in_double(const GasShape& shape, Request request) {
       if (outcome != Outcome::outside) break;
       if (further == 0) return simulation->failure();
       return simulation->failure() + ", in double " + std::to_string(further) + (further == 1 ? " step" : " steps") +
-             " later: the lattice has no integer for the kick that leads there";
+             " later: on the lattice the kick that leads there is out of range";
     }
     return {};
   };

@@ -10,12 +10,12 @@ const BoundOptions<StepControl>& control_options() {
   static const BoundOptions<StepControl> all{
       bind_word({.name = step_control_option,
                  .default_value = fixed_steps,
-                 .meaning = "reversible: steps of varying length, for symmetric methods; dt is the length of the first "
+                 .meaning = "reversible: steps of varying size, for symmetric methods; dt is the size of the first "
                             "step, and the time is part of the state"},
                 &StepControl::reversible, {{fixed_steps, false}, {reversible_steps, true}}),
       bind_word({.name = monitor_option,
                  .default_value = default_monitor,
-                 .meaning = "what controls the step length: arclength gives steps of equal length in phase space; "
+                 .meaning = "what controls the step size: arclength gives steps of equal length in phase space; "
                             "distance gives steps proportional to the power 3/2 of the distance to the centre or "
                             "between the two closest bodies (central-force, n-body, solar-system)",
                  .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps + "\""},
@@ -46,7 +46,7 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
     const auto monitor = method.options.find(monitor_option);
     if (monitor == method.options.end()) return std::nullopt;
     return RefusedOption{monitor_option, "found \"" + monitor->second +
-                                             "\" with steps of equal length, which have no monitor; allowed with " +
+                                             "\" with steps of equal size, which have no monitor; allowed with " +
                                              step_control_option + " = \"" + reversible_steps + "\""};
   }
   const MethodInfo info = entry.family->describe(entry.index, method.options);
@@ -57,7 +57,7 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
   }
   if (info.diagnostics) {
     return RefusedOption{step_control_option, std::string("found \"") + reversible_steps +
-                                                  "\" with diagnostics, which need steps of equal length; allowed " +
+                                                  "\" with diagnostics, which need steps of equal size; allowed " +
                                                   fixed_steps + ", or no diagnostics"};
   }
   return std::nullopt;

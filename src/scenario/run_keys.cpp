@@ -17,8 +17,8 @@ const LatticeKeys& lattice_keys() {
       .momentum = {.name = "momentum",
                    .meaning = "spacing of momenta, a power of two from 2^-1000 to 2^999",
                    .range = Range::positive,
-                   .unset = "2^-52 of the largest momentum at the start; for attracting bodies of the largest expected "
-                            "momentum; larger for a gas of more than 1023 particles",
+                   .unset = "2^-52 of the largest momentum at the start (for attracting bodies, of the largest "
+                            "expected momentum); larger for a gas of more than 1023 particles",
                    .example = "2^-52"}};
   return keys;
 }
@@ -160,7 +160,7 @@ const RunKeys& run_keys() {
               .meaning = "treat the method as a map, not as an approximation of a flow: no warnings, certificate or "
                          "energy scale; sections, events and Lyapunov exponents count steps instead of time",
               .type = OptionType::yes_no,
-              .condition = "with steps of one length and without record",
+              .condition = "with steps of equal size and without record",
               .example = "true"},
       .certificate = {.name = "certificate",
                       .default_value = "true",

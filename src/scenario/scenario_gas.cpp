@@ -473,9 +473,9 @@ void ScenarioReader::round_edges(TomlTable& table) {
     const double rounded = std::nearbyint(edge / unit) * unit;
     const double by = std::abs(rounded - edge);
     if (rounded == 0) {
-      complain("found a unit of " + shortest(unit) + (given ? "" : ", the default for this start,") +
+      complain("found the grid spacing " + shortest(unit) + (given ? "" : ", the default for this start,") +
                " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
-               " units and would be rounded to 0; allowed units far below the edges, such as \"2^-52\"");
+               " spacings and would be rounded to 0; allowed spacings far below the edges, such as \"2^-52\"");
       return;
     }
     moved = std::max(moved, by);
@@ -485,12 +485,12 @@ void ScenarioReader::round_edges(TomlTable& table) {
   Texts parameters = request.parameters;
   parameters[GasKeys::size] = "[" + joined(edges) + "]";
   if (const auto [wrong, message] = refused(parameters); !message.empty()) {
-    complain("found a unit of " + shortest(unit) + ", which rounds the edges to " + joined(edges) +
+    complain("found the grid spacing " + shortest(unit) + ", which rounds the edges to " + joined(edges) +
              ", too short for problem." + wrong + " = " + request.parameters.at(GasKeys::cutoff) + "; " + message);
     return;
   }
   request.parameters = std::move(parameters);
-  scenario_.notes.push_back("the edges of the periodic box are rounded to whole units of the lattice, by up to " +
+  scenario_.notes.push_back("the edges of the periodic box are rounded to whole grid spacings, by up to " +
                             shortest(moved));
 }
 

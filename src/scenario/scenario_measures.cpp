@@ -73,7 +73,7 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
   }
   if (has_method() && describe(scenario_.request.method).varies_steps) {
     table.complain(key, table.found(key) +
-                            " with steps of varying length; allowed with step_control = \"fixed\", because step "
+                            " with steps of varying size; allowed with step_control = \"fixed\", because step "
                             "lengths that depend on the state are not differentiated");
   }
   if (scenario_.problem != nullptr && !scenario_.problem->constraint_form.empty()) {

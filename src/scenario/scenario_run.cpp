@@ -44,7 +44,7 @@ void ScenarioReader::read_map(TomlTable& table) {
   scenario_.map = table.yes_no(keys.map).value_or(false);
   if (!scenario_.map) return;
   if (has_method() && describe(scenario_.request.method).varies_steps) {
-    table.complain(keys.map.name, table.found(keys.map.name) + " with steps of varying length; allowed with " +
+    table.complain(keys.map.name, table.found(keys.map.name) + " with steps of varying size; allowed with " +
                                       "step_control = \"fixed\", because all steps of a map are equal");
   }
   if (table.has(keys.record.name)) {
@@ -92,7 +92,7 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
 bool ScenarioReader::refuse_time(TomlTable& table, const std::string& key, const std::string& allowed) {
   if (!table.has(key) || !has_method() || !describe(scenario_.request.method).varies_steps) return false;
   table.complain(key, table.found(key) + " with " + describe(scenario_.request.method).name + "; allowed " + allowed +
-                          ", because steps of varying length do not end at a given time");
+                          ", because steps of varying size do not end at a given time");
   return true;
 }
 

@@ -87,9 +87,8 @@ std::string why_undecided(const std::vector<StepDefect>& votes) {
         last.rounding, last.h, last.error);
   }
   return fmt::format(
-      "only with h = {:.3g}, where the error of the step is {:.1e}, the error is well above rounding; at least two "
-      "step "
-      "sizes are needed",
+      "the error of the step is well above rounding only with h = {:.3g}, where it is {:.1e}; at least two step sizes "
+      "are needed",
       last.h, last.error);
 }
 PropertyVerdict verdict_of(const std::vector<StepDefect>& votes, const std::string& property) {
@@ -382,11 +381,10 @@ class StepExamination {
         reasons_.push_back("order: every step is exact to rounding");
         return;
       }
-      reasons_.push_back(
-          fmt::format("order undecided: only with {} step sizes the error is a smooth function of h and below the size "
-                      "of the state; a "
-                      "slope needs {}{}",
-                      points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
+      reasons_.push_back(fmt::format(
+          "order undecided: {} of the step sizes give an error that is a smooth function of h and below the "
+          "size of the state; a slope needs {}{}",
+          points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
       return;
     }
     std::vector<std::size_t> ends;

@@ -374,7 +374,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
   } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&
              is_line_beneath_noise(t, energy)) {  // more than roundings to one side explain
     found.drift.drift = DriftClass::linear;
-    found.drift.reason = "a straight line beneath independent noise";
+    found.drift.reason = "a straight line plus independent noise";
   }
   return found;
 }

@@ -382,11 +382,12 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   const std::string explained = fmt::format("{}, rounding explains up to {}", off(worst), brief(in_its_unit));
   if (!within_rounding(motion, growth, actions)) {
     if (method.reversible && within_rounding(motion, growth, actions, beyond)) {
-      return {ReversalProof::nothing,
-              explained +
-                  fmt::format(", and less than {:g} times this is not a proof, since stiff steps have larger rounding "
-                              "errors; an arithmetic with more digits would decide",
-                              beyond)};
+      return {
+          ReversalProof::nothing,
+          explained +
+              fmt::format("; a distance below {:g} times this proves nothing, since stiff steps have larger rounding "
+                          "errors; an arithmetic with more digits would decide",
+                          beyond)};
     }
     if (!begins_on_a_wall(motion)) return {ReversalProof::not_reversible, explained};
     return {ReversalProof::nothing, explained +

@@ -269,7 +269,7 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
     const std::string solved = hint_after_divergence(request, differentiated);
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
-    // Steps of varying length also fail in this way if their density is no longer positive. Then no iteration failed to
+    // Steps of varying size also fail in this way if their density is no longer positive. Then no iteration failed to
     // converge.
     const auto problem_entry = find_problem(request);
     const ProblemEntry& problem = *problem_entry;

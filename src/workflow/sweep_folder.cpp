@@ -29,8 +29,8 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepIdentity& n
                        ", as when the sweep began" + advice_to_overwrite()});
   };
   for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
-    const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";
-    const std::string allowed = i < before.varied.size() ? before.varied[i] : "nothing";
+    const std::string found = i < now.varied.size() ? now.varied[i] : "no further key";
+    const std::string allowed = i < before.varied.size() ? before.varied[i] : "no further key";
     if (found != allowed) complain(option_name("vary"), found, allowed);
   }
   const auto name = [](bool in_step) { return (in_step ? "" : "no ") + option_name("zip"); };

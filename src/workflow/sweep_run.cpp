@@ -87,7 +87,7 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
   const auto complain = [&](const char* option, std::string message) {
     wrong.push_back({"", 0, 0, option_name(option), std::move(message)});
   };
-  if (request.varied.empty()) complain("vary", "found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
+  if (request.varied.empty()) complain("vary", "missing; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
   if (request.threads < 0 || request.threads > most_sweep_threads) {
     complain("threads", "found " + std::to_string(request.threads) + "; allowed 1 to " +
                             std::to_string(most_sweep_threads) + ", 0 for all");

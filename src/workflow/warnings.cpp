@@ -66,7 +66,7 @@ bool is_free_motion(const Scenario& scenario, const Frame& end) {
 }
 
 void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
-  // With steps of varying length, dt is only the first step. It is compared with the known period of the orbit. The
+  // With steps of varying size, dt is only the first step. It is compared with the known period of the orbit. The
   // mean step is compared, too, because a density that is integrated with too long steps no longer follows its monitor.
   const bool varies = describe(scenario.request.method).varies_steps;
   const auto seen = varies ? std::nullopt : motion.turns->fastest();

@@ -31,7 +31,7 @@ struct WatchedMotion {
   const TurningPointObserver* turns = nullptr;  // null: nothing watched for steps that are too long
   std::vector<WallCount> walls{};               // number of bounces off each wall
   std::int64_t steps = 0;
-  double mean_step = 0;               // mean of steps of varying length; 0: unknown
+  double mean_step = 0;               // mean of steps of varying size; 0: unknown
   std::optional<double> exchanged{};  // EnergyExchange::typical()
 };
 /// Returns the same warnings without no_number.
