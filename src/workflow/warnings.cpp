@@ -427,7 +427,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
                                          ? fmt::format("exceeds the energy that the motion exchanges between T and V, "
                                                        "{:.3g}",
                                                        motion.exchanged.value_or(energy.exchanged))
-                                     : scale > 0 ? fmt::format("exceeds the energy scale, {:.3g}", scale)
+                                     : scale > 0 ? fmt::format("exceeds the energy scale of the start, {:.3g}", scale)
                                                  : std::string("has no scale, since the energy is 0 at the start"),
                                      scenario.request.problem,
                                      describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
