@@ -254,9 +254,10 @@ void ScenarioReader::check_start(TomlTable& table) {
       const bool in_orbit = inside.starts_with("orbit.");
       TomlTable at = in_orbit ? table.table("orbit") : table;
       const std::string key = in_orbit ? inside.substr(6) : inside;
+      const double excess = condition.left - condition.right;
       at.complain(key, at.found(key) + "; allowed " + condition.statement + ", but " + shortest(condition.left) +
-                           (condition.strict ? " >= " : " > ") + shortest(condition.right) + ", exceeded by " +
-                           shortest(condition.left - condition.right));
+                           (condition.strict ? " >= " : " > ") + shortest(condition.right) +
+                           (excess > 0 ? ", exceeded by " + shortest(excess) : ""));
     }
   }
   if (!possible) return;

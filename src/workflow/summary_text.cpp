@@ -49,21 +49,25 @@ std::string orbit_text(const OrbitSummary& orbit) {
          (orbit.falls_into_centre ? ", falls into the centre" : "");
 }
 
+/// One line for the energy, one for each invariant, one for the reversal.
 std::string certificate_text(const RunCertificate& c) {
+  const std::string next_line = fmt::format("\n{:<20}", "");
   std::string text =
       fmt::format("energy error {}: {}", c.drift.drift ? name(*c.drift.drift) : "undecided", c.drift.reason);
   for (const MomentumMap& map : c.momentum_maps) {
     if (!map.rounding) continue;
     const std::optional<bool> conserved = map.conserved();
-    text += fmt::format("; {} {}", map.name,
-                        !conserved   ? "conservation undecided: the error may come from rounding or from the method"
-                        : *conserved ? "conserved to rounding"
-                                     : "not conserved");
+    text += next_line + fmt::format("{} {}", map.name,
+                                    !conserved
+                                        ? "conservation undecided: the error may come from rounding or from the method"
+                                    : *conserved ? "conserved to rounding"
+                                                 : "not conserved");
   }
   if (const auto& back = c.reversal) {
-    text += fmt::format("; reversal tested over {} ({} % of the run): {}: {}",
-                        counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
-                        back->proves == ReversalProof::nothing ? "inconclusive" : name(back->proves), back->reason);
+    text += next_line + fmt::format("reversal tested over {} ({} % of the run): {}: {}",
+                                    counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
+                                    back->proves == ReversalProof::nothing ? "inconclusive" : name(back->proves),
+                                    back->reason);
   }
   return text;
 }

@@ -134,8 +134,8 @@ void SweepFolder::note_progress() {
   } else if (left == 0) {
     notes_.emplace_back("the sweep is complete already; there is nothing to do");
   } else {
-    notes_.push_back(
-        fmt::format("{} of {} members are finished already", sweep_.own_members() - left, sweep_.own_members()));
+    notes_.push_back(fmt::format("{} of {} members are finished already or have no start", sweep_.own_members() - left,
+                                 sweep_.own_members()));
   }
 }
 
