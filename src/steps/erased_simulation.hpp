@@ -39,7 +39,7 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe) {
   };
 }
 
-/// Whether a method supports recorded steps of varying length.
+/// Whether a method supports recorded steps of varying size.
 template <class P, class A, class M>
 constexpr bool takes_recorded_lengths = requires(typename M::template Stepper<P, A>& stepper, const P& problem,
                                                  const Trace<double>& h, PhasePoint<A, dynamic>& z) {
@@ -64,7 +64,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   }
 }
 
-/// Records steps of varying length, for methods that support them and natural Hamiltonians; else empty.
+/// Records steps of varying size, for methods that support them and natural Hamiltonians; else empty.
 template <Capability c, class A, class M>
 StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, const Request& request) {
   using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
