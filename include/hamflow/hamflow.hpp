@@ -103,6 +103,7 @@
 #include "hamflow/numerics/gauss_legendre.hpp"
 #include "hamflow/numerics/quadrature.hpp"
 #include "hamflow/numerics/root.hpp"
+#include "hamflow/orbits/bodies.hpp"
 #include "hamflow/orbits/elements.hpp"
 #include "hamflow/orbits/kepler_drift.hpp"
 #include "hamflow/orbits/orbit.hpp"

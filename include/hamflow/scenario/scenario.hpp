@@ -55,6 +55,7 @@ struct Scenario {
   bool certificate = true;                       // requested; a map has none
   std::vector<std::string> notes;                // remarks that are not errors
   std::optional<TwoBodies> bodies;               // if the start is given by two bodies in space
+  std::vector<std::string> body_names;           // of n-body, if the start is given by `bodies`
   std::vector<double> start_q;                   // in double, canonical
   std::vector<double> start_p;
   std::optional<std::uint64_t> start_contents{};  // hash of the numbers, if the start is read from a file
