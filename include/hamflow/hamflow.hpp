@@ -135,6 +135,7 @@
 #include "hamflow/problems/support/from_functions.hpp"
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/problems/t_tube.hpp"
+#include "hamflow/problems/whole_solar_system.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/formula_problem.hpp"

@@ -209,6 +209,7 @@ void ScenarioReader::read_units(TomlTable& table) {
                                            BodyKeys::units + ", which name G; allowed one of them");
   }
   if (names.size() != unit_keys().size()) return;
+  scenario_.units = {names[0], names[1], names[2]};
   scenario_.request.parameters[BodyKeys::constant] = gravitational_constant_in(names[0], names[1], names[2]);
 }
 

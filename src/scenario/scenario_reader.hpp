@@ -136,6 +136,7 @@ class ScenarioReader {
   ExpressionInDigits in_digits(const StateExpression& expression) const;
   std::optional<StateExpression> read_changing_expression(TomlTable& table, const OptionInfo& key);
   void read_observables(TomlTable& table);
+  void read_elements(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
   void round_edges(TomlTable& table);

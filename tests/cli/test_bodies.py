@@ -16,6 +16,10 @@ SUN = '{ name = "Sun", mass = 1 }'
 EARTH = '{ name = "Earth", mass = 3e-6, a = 1, e = 0.0167 }'
 
 
+SOLAR = ('[problem]\nname = "solar-system"\n{}\n[method]\nname = "stv4"\n[run]\ndt = 1\nsteps = 0\n[output]\n'
+         'elements = "{}"\n')
+
+
 def scenario(bodies, before="", method="stv4", steps=0, dt=1, run=""):
     return (f'[problem]\nname = "n-body"\n{before}\nbodies = [{", ".join(bodies)}]\n[method]\nname = "{method}"\n'
             f"[run]\ndt = {dt}\nsteps = {steps}\n{run}\n")
@@ -266,6 +270,89 @@ class Massless(CommandCase):
             found = json.loads(self.hamflow("run", "s.toml", "--out", "none", "--json", status=2).stdout)["errors"]
             self.assertEqual([error["key"] for error in found], [key])
             self.assertIn(word, found[0]["message"])
+
+
+class Elements(CommandCase):
+    """output.elements gives back the elements by which bodies were placed, wherever they are recorded."""
+
+    GIVEN = {"Jupiter": (5.2026, 0.0485, 0.0227, 1.75, 4.78, 0.35), "Saturn": (9.55, 0.055, 0.043, 1.98, 5.92, 5.53),
+             "comet": (17.8, 0.967, 2.83, 1.02, 1.95, 0.67), "visitor": (-1.27, 1.2, 2.14, 0.43, 4.22, -3.5)}
+    KEYS = ("a", "e", "inclination", "node", "pericentre", "mean_anomaly")
+    MASSES = {"Jupiter": 9.5e-4, "Saturn": 2.9e-4, "comet": 0, "visitor": 0}
+
+    def write_bodies(self, primary, steps=0, names=True):
+        bodies = [SUN]
+        for name, numbers in self.GIVEN.items():
+            keys = ", ".join(f"{key} = {x}" for key, x in zip(self.KEYS, numbers))
+            label = f'name = "{name}", ' if names else ""
+            bodies.append(f'{{ {label}mass = {self.MASSES[name]}, primary = "{primary}", {keys} }}')
+        self.write("s.toml", scenario(bodies, UNITS, steps=steps, dt=5) +
+                   f'[output]\nelements = "{primary}"\nformats = ["h5", "csv"]\n')
+
+    def test_there_and_back(self):
+        for primary in ("jacobi", "barycentre", "Sun"):
+            self.write_bodies(primary)
+            found = self.summary("s.toml")["elements"]
+            self.assertEqual(list(found), list(self.GIVEN))
+            for name, numbers in self.GIVEN.items():
+                for key, x in zip(self.KEYS, numbers):
+                    # Positions and velocities are rounded, and moved to the centre of mass; e of a comet is the
+                    # difference of numbers 30 times as large.
+                    self.assertAlmostEqual(found[name][key] / x, 1, delta=2e-14, msg=(primary, name, key))
+                of = found[name]
+                turn = 2 * math.pi
+                self.assertAlmostEqual(of["longitude_of_pericentre"], (of["node"] + of["pericentre"]) % turn, delta=1e-13)
+                if of["e"] < 1:
+                    sum_of = (of["longitude_of_pericentre"] + of["mean_anomaly"]) % turn
+                    self.assertAlmostEqual(of["mean_longitude"], sum_of, delta=1e-12)
+                else:
+                    self.assertIsNone(of["period"])
+                    self.assertIsNone(of["mean_longitude"])
+
+    def test_in_every_file(self):
+        self.write_bodies("Sun", 40)
+        last = json.loads(self.hamflow("run", "s.toml", "--out", "r", "--json").stdout)["elements"]
+        rows = (self.folder / "r" / "trajectory.csv").read_text().splitlines()
+        columns = rows[0].split(",")
+        for name, of in last.items():
+            for key, x in of.items():
+                found = float(rows[-1].split(",")[columns.index(f"{name}.{key}")])
+                self.assertTrue(found == x or x is None and math.isnan(found), (name, key))
+        self.hamflow("plot", "r", "--kind", "time", "--y", "Jupiter.e,comet.a", "--output", "f.svg")
+        self.assertIn("Jupiter", (self.folder / "f.svg").read_text())
+
+    def test_names_of_their_own(self):
+        self.write_bodies("jacobi", names=False)
+        self.assertEqual(list(self.summary("s.toml")["elements"]), ["body2", "body3", "body4", "body5"])
+
+    def test_solar_system(self):
+        """Mean orbits of 2000 [Standish, Keplerian elements for approximate positions]: osculating ones are near them."""
+        text = SOLAR.format('planets = "all"', "Sun")
+        self.write("s.toml", text)
+        found = self.summary("s.toml")["elements"]
+        for name, a, e, inclination in (("Mercury", 0.38710, 0.20564, 7.0050), ("Venus", 0.72333, 0.00677, 3.3946),
+                                        ("Earth", 1.00000, 0.01671, 0), ("Mars", 1.52371, 0.09337, 1.8497),
+                                        ("Jupiter", 5.20289, 0.04839, 1.3044), ("Saturn", 9.53668, 0.05386, 2.4860),
+                                        ("Uranus", 19.189, 0.04726, 0.7726), ("Neptune", 30.070, 0.00859, 1.7700),
+                                        ("Pluto", 39.482, 0.24883, 17.140)):
+            self.assertAlmostEqual(found[name]["a"] / a, 1, delta=0.01, msg=name)
+            self.assertAlmostEqual(found[name]["e"], e, delta=0.005, msg=name)
+            self.assertAlmostEqual(math.degrees(found[name]["inclination"]), inclination, delta=0.02, msg=name)
+        self.write("s.toml", SOLAR.format("", "jacobi"))
+        self.assertEqual(list(self.summary("s.toml")["elements"]), ["Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"])
+
+    def test_wrong(self):
+        for text, words in ((SOLAR.format("", "Jupyter"), "did you mean Jupiter?"),
+                            (SOLAR.format("", "Earth"), "allowed jacobi, barycentre, Sun, Jupiter"),
+                            (scenario([SUN, EARTH], "softening = 0.1") + '[output]\nelements = "jacobi"', "softening"),
+                            (scenario([SUN, '{ name = "dust", mass = 0, a = 1 }']) + '[output]\nelements = "dust"',
+                             "whose mass is 0"),
+                            ('[problem]\nname = "pendulum"\ninitial = { q = [0], p = [1] }\n[method]\nname = "verlet"\n'
+                             '[run]\ndt = 0.1\nsteps = 1\n[output]\nelements = "jacobi"', "whose bodies have orbits")):
+            self.write("s.toml", text)
+            found = json.loads(self.hamflow("run", "s.toml", "--out", "none", "--json", status=2).stdout)["errors"]
+            self.assertEqual([error["key"] for error in found], ["output.elements"])
+            self.assertIn(words, found[0]["message"])
 
 
 if __name__ == "__main__":

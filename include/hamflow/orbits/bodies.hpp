@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "hamflow/orbits/elements.hpp"
 #include "hamflow/orbits/orbit.hpp"
 
 namespace hamflow {
@@ -89,6 +90,43 @@ BodyStates<R> states_of(const std::vector<BodyStart<R>>& bodies, const R& gravit
     if (!(R(0) < bodies[i].mass)) place(i);
   }
   return out;
+}
+
+/// The elements of each body about its primary, with mu as for Primary. Nothing for the first body, for the body that
+/// is the primary of all others, and for bodies before the first with a mass.
+template <class R>
+std::vector<std::optional<OrbitalElements<R>>> elements_of_bodies(const std::vector<R>& masses,
+                                                                  const std::vector<OrbitState<R>>& states,
+                                                                  const R& gravitational_constant, Primary primary,
+                                                                  std::size_t of = 0) {
+  R mass(0);
+  OrbitState<R> centre{};  // of the bodies before, of all, or of the primary
+  const auto add = [&](std::size_t j) {
+    if (!(R(0) < masses[j])) return;
+    mass += masses[j];
+    for (std::size_t k = 0; k < 3; ++k) {
+      centre.position[k] += masses[j] / mass * (states[j].position[k] - centre.position[k]);
+      centre.velocity[k] += masses[j] / mass * (states[j].velocity[k] - centre.velocity[k]);
+    }
+  };
+  if (primary == Primary::body) add(of);
+  for (std::size_t j = 0; primary == Primary::barycentre && j < masses.size(); ++j) add(j);
+  std::vector<std::optional<OrbitalElements<R>>> all(masses.size());
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const bool is_about_all = primary == Primary::barycentre;
+    const bool has_orbit = primary == Primary::body ? i != of : i > 0;
+    if (has_orbit && R(0) < mass) {
+      Vector<R, 3> r;
+      Vector<R, 3> v;
+      for (std::size_t k = 0; k < 3; ++k) {
+        r[k] = states[i].position[k] - centre.position[k];
+        v[k] = states[i].velocity[k] - centre.velocity[k];
+      }
+      all[i] = elements_of(r, v, R(gravitational_constant * (is_about_all ? mass : mass + masses[i])));
+    }
+    if (primary == Primary::jacobi) add(i);
+  }
+  return all;
 }
 
 }  // namespace hamflow

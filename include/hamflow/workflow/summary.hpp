@@ -197,6 +197,7 @@ struct Summary {
   std::optional<ConstraintResiduals> constraints{};  // the largest over every step; none: there are no constraints
   std::optional<DiagnosticsSummary> diagnostics{};   // none: not requested by method.diagnostics
   std::vector<Body> bodies{};                        // of a two-body problem at the end; else empty
+  Value::Table elements{};                           // of each body at the end; empty: not requested
   std::optional<OrbitSummary> orbit{};               // none: no central force, or a map
   std::optional<ExactSummary> exact{};               // none: no closed form is known
   Effort effort{};                                   // evaluations and linear solves
