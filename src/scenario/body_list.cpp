@@ -3,6 +3,7 @@
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/orbits/element_table.hpp"
 
 namespace hamflow {
 
@@ -11,22 +12,9 @@ namespace {
 template <class R>
 Orbit<R> orbit_in(const Texts& texts) {
   Orbit<R> orbit;
-  const auto read = [&](const char* key, auto& to) {
+  for_each_key(orbit, [&](const char* key, auto& to) {
     if (const auto given = texts.find(key); given != texts.end()) to = evaluate_number<R>(given->second);
-  };
-  read("a", orbit.a);
-  read("period", orbit.period);
-  read("pericentre_distance", orbit.pericentre_distance);
-  read("e", orbit.e);
-  read("inclination", orbit.inclination);
-  read("node", orbit.node);
-  read("pericentre", orbit.pericentre);
-  read("longitude_of_pericentre", orbit.longitude_of_pericentre);
-  read("mean_anomaly", orbit.mean_anomaly);
-  read("true_anomaly", orbit.true_anomaly);
-  read("eccentric_anomaly", orbit.eccentric_anomaly);
-  read("mean_longitude", orbit.mean_longitude);
-  read("time_of_pericentre", orbit.time_of_pericentre);
+  });
   return orbit;
 }
 

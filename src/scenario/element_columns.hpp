@@ -1,25 +1,15 @@
-// The orbital elements that are recorded of bodies: names, meanings, values.
+// The orbital elements that are recorded of bodies: which bodies have them, and their values in a state.
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "hamflow/orbits/elements.hpp"
+#include "hamflow/orbits/element_table.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
-
-struct ElementColumn {
-  enum class Quantity { number, length, time, angle };
-  const char* name;
-  double OrbitalElements<double>::*value;
-  const char* meaning;
-  Quantity quantity;
-};
-std::span<const ElementColumn> element_columns();
 
 /// "Jupiter", or "body2" where bodies have no names.
 std::string body_name(const Scenario& scenario, std::size_t body);

@@ -318,6 +318,39 @@ void ScenarioReader::check_barycentre(std::vector<TomlTable>& tables) {
   }
 }
 
+/// Refuses what a splitting into Kepler motions about the first body does not know.
+void ScenarioReader::check_kepler_splitting(TomlTable& method) {
+  const std::string& name = scenario_.request.method.name;
+  const bool is_one = name == "wisdom-holman" || name == "saba";
+  if (!is_one || scenario_.problem == nullptr || !complaints_.empty()) return;
+  const std::string others = "; allowed with kahan-li8, rkn8-s19, dop853";
+  TomlTable problem = root_.table("problem");
+  if (scenario_.request.walls) {
+    problem.complain(wall_keys().walls.name, "found walls with " + name + others);
+  }
+  if (!takes_body_list(scenario_.problem->info)) return;
+  const Parameters<double> parameters(scenario_.request.parameters);
+  if (parameters["softening"] > 0) {
+    problem.complain("softening", problem.found("softening") + " with " + name +
+                                      ", whose bodies move on conics; allowed 0" + others.substr(0, 1) +
+                                      " other methods: kahan-li8, rkn8-s19, dop853");
+  }
+  if (!(parameters[BodyKeys::constant] > 0)) {
+    problem.complain(BodyKeys::constant,
+                     problem.found(BodyKeys::constant) + " with " + name + "; allowed a positive number");
+  }
+  const std::vector<double> masses = parameters.list(BodyKeys::masses);
+  const auto heaviest = std::max_element(masses.begin(), masses.end());
+  if (heaviest == masses.begin() || !(masses.front() < *heaviest)) return;
+  const auto index = static_cast<std::size_t>(heaviest - masses.begin());
+  const std::string body =
+      index < scenario_.body_names.size() ? scenario_.body_names[index] : "body " + std::to_string(index + 1);
+  method.complain(method_name_key().name, method.found(method_name_key().name) + " with " + body +
+                                              " heavier than the first body; allowed the heaviest body first: put it "
+                                              "first" +
+                                              others);
+}
+
 /// Refuses what does not know massless bodies: the forces on them follow from no term of H.
 void ScenarioReader::check_massless(TomlTable& method, TomlTable& run) {
   if (scenario_.problem == nullptr || !takes_body_list(scenario_.problem->info) || !complaints_.empty()) return;

@@ -54,6 +54,7 @@ class ScenarioReader {
     check_gas();
     check_method_for_size(method);
     check_massless(method, run);
+    check_kepler_splitting(method);
     read_output(output);
     root_.finish();
     return std::move(scenario_);
@@ -101,6 +102,7 @@ class ScenarioReader {
   void check_space(std::vector<TomlTable>& tables);
   void check_barycentre(std::vector<TomlTable>& tables);
   void check_places(TomlTable& table);
+  void check_kepler_splitting(TomlTable& method);
   void check_massless(TomlTable& method, TomlTable& run);
   void place_bodies(TomlTable& table, const std::string& arithmetic);
   bool check_masses(TomlTable& table);

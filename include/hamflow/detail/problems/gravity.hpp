@@ -5,6 +5,7 @@
 // invariants are those of the massive bodies; the forces on massless ones follow from no term of H.
 #pragma once
 
+#include "hamflow/detail/core/point_masses.hpp"
 #include "hamflow/detail/problems/pair_system.hpp"
 #include "hamflow/problems/pairs/newton.hpp"
 
@@ -90,6 +91,9 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
   /// @param dimensions of space, 2 or 3
   Gravity(const std::vector<R>& masses, const R& gravitational_constant, const R& softening, std::size_t dimensions)
       : Base(model_of(masses, gravitational_constant, softening, dimensions)) {}
+
+  /// As GravitatingBodies.
+  PointMasses<R> point_masses() const { return {space(), model().masses, model().constant, model().softening_squared}; }
 
   bool has_massless() const { return !model().massless.empty(); }
 
