@@ -323,21 +323,20 @@ void ScenarioReader::check_kepler_splitting(TomlTable& method) {
   const std::string& name = scenario_.request.method.name;
   const bool is_one = name == "wisdom-holman" || name == "saba";
   if (!is_one || scenario_.problem == nullptr || !complaints_.empty()) return;
-  const std::string others = "; allowed with kahan-li8, rkn8-s19, dop853";
+  const std::string others = "kahan-li8, rkn8-s19, dop853";
   TomlTable problem = root_.table("problem");
   if (scenario_.request.walls) {
-    problem.complain(wall_keys().walls.name, "found walls with " + name + others);
+    problem.complain(wall_keys().walls.name, "found walls with " + name + "; allowed with " + others);
   }
   if (!takes_body_list(scenario_.problem->info)) return;
   const Parameters<double> parameters(scenario_.request.parameters);
   if (parameters["softening"] > 0) {
     problem.complain("softening", problem.found("softening") + " with " + name +
-                                      ", whose bodies move on conics; allowed 0" + others.substr(0, 1) +
-                                      " other methods: kahan-li8, rkn8-s19, dop853");
+                                      ", whose bodies move on conics; allowed 0, or the methods " + others);
   }
   if (!(parameters[BodyKeys::constant] > 0)) {
-    problem.complain(BodyKeys::constant,
-                     problem.found(BodyKeys::constant) + " with " + name + "; allowed a positive number");
+    problem.complain(BodyKeys::constant, problem.found(BodyKeys::constant) + " with " + name +
+                                             "; allowed a positive number, or the methods " + others);
   }
   const std::vector<double> masses = parameters.list(BodyKeys::masses);
   const auto heaviest = std::max_element(masses.begin(), masses.end());
@@ -346,8 +345,8 @@ void ScenarioReader::check_kepler_splitting(TomlTable& method) {
   const std::string body =
       index < scenario_.body_names.size() ? scenario_.body_names[index] : "body " + std::to_string(index + 1);
   method.complain(method_name_key().name, method.found(method_name_key().name) + " with " + body +
-                                              " heavier than the first body; allowed the heaviest body first: put it "
-                                              "first" +
+                                              " heavier than the first body; allowed the heaviest body first, or the "
+                                              "methods " +
                                               others);
 }
 

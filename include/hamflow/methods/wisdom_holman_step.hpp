@@ -39,11 +39,11 @@ inline MethodInfo describe(const WisdomHolmanOptions& options) {
                        : is_jacobi ? "WisdomHolman1991"
                                    : "DuncanEtAl1998",
           .order = 2,
-          // The lazy kernel moves positions by a force that depends on them: symplectic only to higher order.
+          // The lazy kick is even in dt and changes velocities by a function of positions, which is no gradient.
           .symplectic = !is_lazy,
           .weakly_reversible = true,
-          .symmetric = !is_lazy,
-          .reversible = !is_lazy,
+          .symmetric = true,
+          .reversible = true,
           .forces_per_step = is_lazy ? 2 : 1};
 }
 

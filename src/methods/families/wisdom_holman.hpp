@@ -40,7 +40,8 @@ struct WisdomHolman {
         .read = [](const Texts& given) { return std::any(read_options(options(), given)); },
         .rank = 1,
         .not_on_lattice = "its changes of coordinates are no bijections of the lattice",
-        .representatives = {"wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)"},
+        .representatives = {"wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)",
+                            "wisdom-holman(kernel=lazy)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read_options(options(), given)); },
         .needs = [](std::size_t) { return "bodies under gravity (n-body, solar-system)"; },
         .advice =
