@@ -145,6 +145,7 @@ void fields(Ar& ar, Summary& x) {
   ar.if_any("constraints", x.constraints);
   ar.if_any("diagnostics", x.diagnostics);
   ar.if_any("bodies", x.bodies);
+  ar.if_any("elements", x.elements);
   ar.if_any("orbit", x.orbit);
   ar.if_any("exact", x.exact);
   ar("evaluations", x.effort, "newton", x.newton, "events", x.events);

@@ -76,8 +76,14 @@ class JacobiSplitting {
   using Spaces = std::vector<Space>;
 
   /// @param masses the heaviest first; 0: a massless body
-  JacobiSplitting(std::vector<R> masses, const R& gravitational_constant)
-      : constant_(gravitational_constant), total_(R(0)), masses_(std::move(masses)) {
+  /// @param softening_squared B has what softening changes: the splitting is then right, but the error of a step is no
+  /// longer proportional to the masses of the planets
+  JacobiSplitting(std::vector<R> masses, const R& gravitational_constant, const R& softening_squared = R(0))
+      : constant_(gravitational_constant),
+        softening_squared_(softening_squared),
+        is_softened_(R(0) < softening_squared),
+        total_(R(0)),
+        masses_(std::move(masses)) {
     share_.resize(masses_.size());
     attraction_.resize(masses_.size());
     for (std::size_t i = 0; i < masses_.size(); ++i) {
@@ -234,7 +240,7 @@ class JacobiSplitting {
     pulls_.assign(r.size(), {});
     const auto attract = [&](std::size_t i, std::size_t j) {
       Space d;
-      R square(0);
+      R square = softening_squared_;
       for (std::size_t k = 0; k < 3; ++k) {
         d[k] = r[j][k] - r[i][k];
         square += d[k] * d[k];
@@ -247,14 +253,14 @@ class JacobiSplitting {
     };
     for (std::size_t a = 0; a < massive_.size(); ++a) {
       for (std::size_t b = a + 1; b < massive_.size(); ++b) {
-        if (a != 0 || b != 1) attract(massive_[a], massive_[b]);
+        if (is_softened_ || a != 0 || b != 1) attract(massive_[a], massive_[b]);
       }
       for (const std::size_t i : massless_) attract(massive_[a], i);
     }
     jacobi_of(pulls_, acceleration_);
     acceleration_[first] = {};
     for (std::size_t i = 0; i < jacobi.size(); ++i) {
-      if (i == first || (massive_.size() > 1 && i == massive_[1])) continue;
+      if (i == first || (!is_softened_ && massive_.size() > 1 && i == massive_[1])) continue;
       R square(0);
       for (std::size_t k = 0; k < 3; ++k) square += jacobi[i][k] * jacobi[i][k];
       const R factor = attraction_[i] / (square * sqrt(square));
@@ -263,6 +269,8 @@ class JacobiSplitting {
   }
 
   R constant_;
+  R softening_squared_;
+  bool is_softened_;
   R total_;
   std::vector<R> masses_;
   std::vector<R> share_;       // m_i/M_i

@@ -199,6 +199,7 @@ struct Summary {
   std::optional<ConstraintResiduals> constraints{};  // largest over every step; nullopt: there are no constraints
   std::optional<DiagnosticsSummary> diagnostics{};   // nullopt: method.diagnostics does not request them
   std::vector<Body> bodies{};                        // bodies of a two-body problem at the end; else empty
+  Value::Table elements{};                           // of each body at the end; empty: not requested
   std::optional<OrbitSummary> orbit{};               // nullopt: there is no central force, or the problem is a map
   std::optional<ExactSummary> exact{};               // nullopt: no closed form is known
   Effort effort{};                                   // numbers of evaluations and linear solves
