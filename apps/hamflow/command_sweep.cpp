@@ -77,7 +77,7 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
   std::cout << (!options.json ? report.text : writes ? report.json : sweep.json_with_rows(report));
   if (writes && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder_for(options).string());
-    if (report.status == "interrupted")
+    if (report.status == "interrupted" && options.merge.empty())
       std::cout << fmt::format("{:<20}the same command with --resume\n", "to continue");
   }
   print_warnings(report.warnings);
@@ -123,7 +123,7 @@ int sweep_command(const SweepCommandOptions& options) {
     std::optional<Preparation> preparation(std::in_place, "setting up the sweep", options.json, options.quiet);
     const bool merges = !options.merge.empty();
     ScenarioSweep sweep(merges ? stored_sweep(options.merge) : request_of(options));
-    print_notes(sweep.notes(), options.quiet);
+    if (!merges) print_notes(sweep.notes(), options.quiet);
     if (!sweep.complaints().empty()) throw Rejection(sweep.complaints());
     const bool draws = !options.figure.empty();
     if (draws) {
@@ -141,9 +141,11 @@ int sweep_command(const SweepCommandOptions& options) {
     preparation.reset();
     print(sweep, report, writes, options);
     if (merges) print_missing(sweep, options);
-    if (!draws || report.status == "failed") return exit_status(report.status);
+    // To merge what there is succeeds, also while shards are missing.
+    const int status = merges && report.status == "interrupted" ? exit_done : exit_status(report.status);
+    if (!draws || report.status == "failed") return status;
     const int drawn = write_after_report([&] { sweep.draw(options.figure, options.colour, options.mean); });
-    return drawn != exit_done ? drawn : exit_status(report.status);
+    return drawn != exit_done ? drawn : status;
   };
   return guarded(options.json, run, "", &kept);
 }

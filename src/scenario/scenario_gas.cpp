@@ -441,9 +441,9 @@ std::string key_of_edge(const std::string& why, bool has_walls) {
   const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
   const GasOptions& gas = gas_options();
   const std::string inside = gas.container.name + ".";
-  if (tells(" from the middle, on the soft wall")) return inside + gas.of_container.radius.name;
+  if (tells(" from the origin, on or beyond the soft wall")) return inside + gas.of_container.radius.name;
   if (tells(" beyond the wall at ")) return has_walls ? wall_keys().walls.name : inside + gas.of_container.size.name;
-  return tells(" at images of one point") ? inside + gas.of_container.size.name : "";
+  return tells(" at images of the same point") ? inside + gas.of_container.size.name : "";
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ class MemberReader {
     for (std::size_t key = 0; key < varied_.size(); ++key) {
       if (std::string why = varied_.without_start(member, key); !why.empty()) {
         no_start = std::move(why);
-        if (!placeholder_) placeholder_ = family_.add_value("1");  // stands for a value that does not exist
+        if (!placeholder_)
+          placeholder_ = family_.add_value("1");  // the formula has no value here; 1 is read in its place
         values.push_back(*placeholder_);
       } else {
         values.push_back(value_of(member, key));

@@ -153,11 +153,14 @@ void SweepFolder::save_if_due() {
   if (failed_ || !table_is_outdated_ || now - last_ < pause_) return;
   table_is_outdated_ = false;
   try {
-    if (sweep_.shard().count > 1) return journal_->force();
-    auto hold = sweep_.hold_rows();
-    const SweepTables tables = tables_of(sweep_);
-    hold.unlock();
-    write_table(tables);
+    if (sweep_.shard().count > 1) {
+      journal_->force();
+    } else {
+      auto hold = sweep_.hold_rows();
+      const SweepTables tables = tables_of(sweep_);
+      hold.unlock();
+      write_table(tables);
+    }
   } catch (const std::exception&) {  // for example a full disk or too little memory; the sweep itself continues
     failed_ = true;
   }

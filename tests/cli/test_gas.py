@@ -103,7 +103,7 @@ class Gas(GasCase):
         self.assertIn('allowed with particles_per_side, else "listing" or a number',
                       self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.scale=per-side", status=2).stderr)
         (self.folder / "start.csv").unlink()
-        self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
+        self.assertIn("cannot read the file start.csv", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
 
     def test_a_run_goes_on_with_the_file_that_it_began_with(self):
         """Other numbers under the same name are another system."""

@@ -129,7 +129,7 @@ class Edges(CommandCase):
                 ("{ }", "x,y,p_x,p_y\n\n", "found no particle below line 1 of p.csv"),
                 ("{ }", "x,y,p_x,p_y\n0,0,0,0\n\n1,1,0,0\n0,0,1,1\n",
                  "found particles 1 and 3 at one point, in lines 2 and 5 of p.csv; allowed different positions"),
-                ("{ }", "x,y,p_x,p_y\n0,0,0,0\n0,2,0,0\n", "beyond it, in line 3 of p.csv; allowed below radius"),
+                ("{ }", "x,y,p_x,p_y\n0,0,0,0\n0,2,0,0\n", "on or beyond the soft wall, in line 3 of p.csv; allowed below radius"),
                 (box, "x,y,p_x,p_y\n0,0,0,0\n0,1,0,0\n", "found y2 = 1 beyond the wall at 0.5, in line 3 of p.csv")):
             with self.subTest(said):
                 self.write("p.csv", text)

@@ -233,7 +233,7 @@ class OwnFiles(CommandCase):
             file = self.folder / "a" / name
             data = file.read_bytes()
             file.unlink()
-            self.refused("a", "--resume", words=(name, "does not exist"))
+            self.refused("a", "--resume", words=(name, "cannot resume with a/"))
             file.write_bytes(data)
         self.assertIn("nothing to do", self.run_to("a", "--resume").stderr)
 

@@ -190,7 +190,7 @@ steps = 2
     def test_what_is_no_run(self):
         for name, said in {"nowhere.run": "does not exist", "kepler.toml": "is not a run of hamflow"}.items():
             text = self.hamflow("plot", name, "--kind", "orbit", "-o", "x.svg", status=3).stderr
-            self.assertIn(f"{name} is damaged or is not a run of hamflow", text)
+            self.assertIn(f"error: {name} ", text)
             self.assertIn(said, text)
         self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.1,0.05", "--out", "many")
         self.assertIn("folder of a sweep", self.hamflow("plot", "many", "--kind", "orbit", "-o", "x.svg", status=3).stderr)

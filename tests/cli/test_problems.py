@@ -252,7 +252,7 @@ class Problems(CommandCase):
             (
                 cf + 'potential="kepler"\nbodies=[{mass=1,position=[0,0,0],velocity=[0,0,0]},'
                 "{mass=1,position=[0,0,0],velocity=[0,0,1]}]",
-                ("at one point",),
+                ("at the same point",),
             ),
             ('name="duffing"\nalpha=1\nk=1\ninitial={q=[1],p=[0]}', ("alpha with beta",)),
             ('name="duffing"\ncase=4\nr0=1', ("case", "from 1 to 3")),

@@ -64,6 +64,7 @@ class Shards(CommandCase):
     def test_a_merge_before_the_end_names_what_is_missing(self):
         self.sweep("s.toml", *VARY, "--out", "x", "--shard", "1/4")
         done = subprocess.run([HAMFLOW, "sweep", "--merge", "x", "--json"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0)
         summary = json.loads(done.stdout)
         self.assertEqual((summary["status"], summary["members"], summary["done"], summary["unfinished"]),
                          ("interrupted", 23, 6, 17))

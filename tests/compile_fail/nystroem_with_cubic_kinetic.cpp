@@ -1,4 +1,4 @@
-// expect: this table has its order for a QuadraticKinetic problem only
+// expect: the order of this table holds only for a QuadraticKinetic problem
 #include "hamflow/hamflow.hpp"
 
 void misuse() {

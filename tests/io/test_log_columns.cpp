@@ -68,7 +68,7 @@ TEST_F(LogColumnsOf, OfSeveralTablesOfLammpsTheLastOneIsRead) {
 
 TEST_F(LogColumnsOf, WhatIsNoTableIsRefused) {
   EXPECT_EQ(refused("t E\n1 2\n1 2 3\n").column, 5);
-  EXPECT_NE(refused("").message.find("empty file"), std::string::npos);
+  EXPECT_NE(refused("").message.find("the file is empty"), std::string::npos);
   EXPECT_NE(refused("t E\n1 2\n", "u").message.find("allowed t, E"), std::string::npos);
   EXPECT_NE(refused("1 2\n", "0", "2").message.find("from 1 to 2"), std::string::npos);
   EXPECT_THROW(read_log_columns(file_ / "nothing", "t", "E"), FileError);

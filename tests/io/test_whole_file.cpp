@@ -114,8 +114,8 @@ TEST_F(WholeFiles, OtherLinesAreFound) {
     EXPECT_NE(refused_csv(folder_ / "t.csv", bytes, hash), "") << i;
   }
   put("t.csv", good.substr(0, bytes - 1));
-  EXPECT_NE(refused_csv(folder_ / "t.csv", bytes, hash).find("not the"), std::string::npos);
-  EXPECT_NE(refused_csv(folder_ / "none.csv", bytes, hash).find("gone"), std::string::npos);
+  EXPECT_NE(refused_csv(folder_ / "t.csv", bytes, hash).find("but the checkpoint needs"), std::string::npos);
+  EXPECT_NE(refused_csv(folder_ / "none.csv", bytes, hash).find("does not exist"), std::string::npos);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@
 namespace hamflow {
 
 namespace detail {
-/// A placeholder for a problem, with which a concept checks that a template has a member.
+/// A problem type without members. Concepts instantiate a recipe with it, to check that the recipe has a member.
 struct UnspecifiedProblem {
   using Real = double;
   static constexpr std::size_t dimension = 1;

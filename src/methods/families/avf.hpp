@@ -28,7 +28,7 @@ struct Avf {
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
-        .not_on_lattice = "an implicit step is no bijection of the lattice",
+        .not_on_lattice = "an implicit step is not a bijection of the lattice",
         .representatives = {"avf(1)", "avf(4)", "avf(auto)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs = [](std::size_t) { return "a twice differentiable H"; },

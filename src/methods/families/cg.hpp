@@ -30,7 +30,7 @@ struct Cg {
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 1,
-        .not_on_lattice = "an implicit step is no bijection of the lattice",
+        .not_on_lattice = "an implicit step is not a bijection of the lattice",
         .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)", "cg(2,2)", "cg(2,3)", "cg(2,auto)",
                             "cg(3,4)", "cg(3,auto)", "cg(4,auto)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },

@@ -29,7 +29,7 @@ struct Eg {
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
-        .not_on_lattice = "an implicit step is no bijection of the lattice",
+        .not_on_lattice = "an implicit step is not a bijection of the lattice",
         .representatives = {"eg(1)", "eg(2)", "eg(3)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs =

@@ -29,7 +29,7 @@ struct ItohAbe {
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
-        .not_on_lattice = "an implicit step is no bijection of the lattice",
+        .not_on_lattice = "an implicit step is not a bijection of the lattice",
         .describe = [](std::size_t, const Texts& given) { return hamflow::ItohAbe{read(given)}.info(); },
         .needs = [](std::size_t) { return "a twice differentiable H as a formula that can be recorded"; },
         .advice =
