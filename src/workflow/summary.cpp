@@ -12,6 +12,7 @@
 #include "core/text_place.hpp"
 #include "element_columns.hpp"
 #include "engine/large_steps.hpp"
+#include "engine/planetary_steps.hpp"
 #include "engine/wall_failures.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
@@ -433,6 +434,8 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.steps = simulation.step();
   if (!request.start.energy.empty()) s.start = start_of(scenario);
   s.energy = energy_of(scenario, simulation.energy(), frame.digits, certificate);
+  const auto* const planets = dynamic_cast<const PlanetarySteps*>(&simulation);
+  if (planets != nullptr && !planets->watches_every_step()) s.energy.of = "recorded states";
   if (scenario.hamiltonian) {  // the energy above is H minus the work of the drive
     Frame start;
     start.q = scenario.start_q;

@@ -15,6 +15,7 @@ template <class Ar>
 void fields(Ar& ar, EnergySummary& x) {
   ar("initial", x.initial, "final", x.final, "max_error", x.max_error, "scale", x.scale, "max_relative_error",
      x.max_relative_error);
+  ar.if_any("of", x.of);
 }
 
 template <class Ar>

@@ -1,10 +1,20 @@
 """Kepler splittings of planetary systems: orders in dt and in the masses, coordinates, massless bodies, refusals."""
 
+import csv
 import json
 import math
+import os
+import pathlib
+import sys
 import unittest
+from decimal import Decimal
 
 from command import CommandCase
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+from kill_and_resume import differences  # noqa: E402
+
+COMPARE = os.environ["COMPARE_RUNS"]
 
 SYSTEM = """
 [problem]
@@ -23,15 +33,17 @@ dt = "{time}/{steps}"
 steps = {steps}
 arithmetic = "{arithmetic}"
 """
+CORRECTED = ("wisdom-holman(corrector=3)", "wisdom-holman(corrector=5)", "wisdom-holman(corrector=7)",
+             "wisdom-holman(corrector=11)", "wisdom-holman(corrector=17)", "wisdom-holman(corrector=17,kernel=lazy)")
 METHODS = ("wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)", "wisdom-holman(kernel=lazy)", "saba(1)",
-           "saba(2)", "saba(3)", "saba(4)", "saba(8,4)", "saba(8,6,4)", "saba(10,6,4)")
+           "saba(2)", "saba(3)", "saba(4)", "saba(8,4)", "saba(8,6,4)", "saba(10,6,4)", *CORRECTED)
 
 
 class WisdomHolman(CommandCase):
-    def run_with(self, method, steps, mass="1e-3", time=8, arithmetic="double", more="", options=""):
+    def run_with(self, method, steps, mass="1e-3", time=8, arithmetic="double", more="", options="", sets=()):
         self.write("s.toml", SYSTEM.format(method=method, steps=steps, mass=mass, time=time, arithmetic=arithmetic,
                                            more=more, options=options))
-        return self.summary("s.toml")
+        return self.summary("s.toml", *(part for one in sets for part in ("--set", one)))
 
     def error(self, method, steps, **rest):
         """The largest error of a position, beside dop853."""
@@ -97,6 +109,68 @@ class WisdomHolman(CommandCase):
             for x, y in zip(beside[9:], exact[9:]):
                 self.assertAlmostEqual(x, y, delta=1e-5, msg=method)
 
+    def test_correctors(self):
+        """Energy errors shrink from order to order where the masses are small; the summary says which states they are of."""
+        errors = []
+        for method in ("wisdom-holman", *CORRECTED[:4]):
+            s = self.run_with(method, 200, mass="1e-6", time=60, arithmetic="compensated",
+                              sets=("run.record_every=1",))
+            errors.append(s["energy"]["max_error"])
+            self.assertEqual(s["energy"].get("of"), "recorded states" if "corrector" in method else None)
+        for coarse, fine in zip(errors, errors[1:]):
+            self.assertLess(fine, coarse / 3, errors)
+
+    def test_the_start_is_not_changed_by_a_corrector(self):
+        plain, corrected = (self.run_with(method, 0)["final"] for method in ("wisdom-holman", CORRECTED[4]))
+        self.assertEqual(plain, corrected)
+
+    def test_a_corrector_in_every_arithmetic(self):
+        exact = self.run_with(CORRECTED[5], 100, arithmetic="mp(40)")["final"]["q"]
+        for arithmetic, delta in (("double", 1e-13), ("compensated", 1e-14), ("double-double", 1e-28), ("quad", 1e-31)):
+            found = self.run_with(CORRECTED[5], 100, arithmetic=arithmetic)["final"]["q"]
+            for x, y in zip(found, exact):
+                self.assertLess(abs(Decimal(x) - Decimal(y)), Decimal(delta), arithmetic)
+
+    def test_resumed_runs(self):
+        """A run that is extended, or killed, leaves what the uninterrupted run leaves."""
+        for method in ("wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)", CORRECTED[5], "saba(8,4)"):
+            name = "r" + str(len(list(self.folder.iterdir())))
+            self.write("s.toml", SYSTEM.format(method=method, steps=4000, mass="1e-3", time=400, arithmetic="compensated",
+                                               more="", options="") + 'record_every = 10\n[output]\nelements = "jacobi"\n')
+            self.hamflow("run", "s.toml", "--out", name + "whole")
+            self.hamflow("run", "s.toml", "--set", "run.steps=1500", "--out", name)
+            self.hamflow("run", "s.toml", "--out", name, "--resume")
+            self.assertEqual(differences(COMPARE, self.folder / (name + "whole"), self.folder / name), [], method)
+
+    def test_ensembles(self):
+        """Members of a sweep end where runs of their own end."""
+        for method in ("wisdom-holman", CORRECTED[3], "saba(10,6,4)"):
+            self.write("s.toml", SYSTEM.format(method=method, steps=100, mass="1e-3", time=10, arithmetic="double",
+                                               more="", options=""))
+            out = f"sweep{len(list(self.folder.iterdir()))}"
+            self.hamflow("sweep", "s.toml", "--vary", "problem.bodies[1].e=0.01,0.1,0.3", "--out", out)
+            rows = list(csv.DictReader((self.folder / out / "sweep.csv").read_text().splitlines()))
+            for row, e in zip(rows, ("0.01", "0.1", "0.3")):
+                alone = self.summary("s.toml", "--set", f"problem.bodies[1].e={e}")
+                self.assertEqual(float(row["energy_final"]), alone["energy"]["final"], row)
+
+    def test_verify_measures_the_claims(self):
+        for method in METHODS:
+            done = self.hamflow("verify", method, "--json", status=None)
+            (found,) = json.loads(done.stdout)["methods"]
+            self.assertEqual(done.returncode, 0, found)
+
+    def test_close_encounters_are_told(self):
+        more = '{ name = "dust", mass = 0, a = 1.02, mean_anomaly = 3, primary = "Sun" },'
+        for method in (*METHODS[:3], CORRECTED[3], "saba(4)"):
+            s = self.run_with(method, 4000, time=400, more=more)
+            told = [w["message"] for w in s["warnings"] if w["kind"] == "close_encounter"]
+            self.assertEqual(len(told), 1, s["warnings"])
+            self.assertIn("inner and dust came within 3 Hill radii of each other at t = ", told[0])
+            self.assertIn("try dop853", told[0])
+            quiet = self.run_with(method, 400, time=40)
+            self.assertEqual([w for w in quiet["warnings"] if w["kind"] == "close_encounter"], [])
+
     def test_it_is_reversible(self):
         s = self.run_with("saba(8,6,4)", 1000, time=100)
         self.assertLess(s["certificate"]["reversal_distance"] or 0, 1e-11)
@@ -116,6 +190,11 @@ class WisdomHolman(CommandCase):
             (["problem.bodies[1].mass=2"], "method.name", "inner heavier than the first body; allowed the heaviest body first"),
             (['problem.walls=[{coordinate="x1",min=-9,max=9}]'], "problem.walls", "found walls with wisdom-holman"),
             (['method.kernel="lasy"'], "method.kernel", "did you mean lazy?"),
+            (["method.corrector=4"], "method.corrector", "found 4; allowed 0, 3, 5, 7, 11, 17"),
+            (["method.corrector=18"], "method.corrector", "allowed"),
+            (["method.corrector=7", 'method.coordinates="democratic-heliocentric"'], "method.corrector",
+             "found 7 with democratic-heliocentric coordinates; allowed with jacobi"),
+            (["method.corrector=7", 'method.step_control="reversible"'], "method.step_control", "not symmetric"),
             (['method.kernel="lazy"', 'method.coordinates="democratic-heliocentric"'], "method.kernel", "allowed with jacobi"),
             (['method.name="saba(8,6)"'], "method.name", "found saba(8,6); allowed saba(1), saba(2)"),
             (['method.name="saba(5)"'], "method.name", "found saba(5)"),

@@ -7,11 +7,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/methods/close_encounter.hpp"
 #include "hamflow/orbits/kepler_drift.hpp"
 
 namespace hamflow {
@@ -38,13 +40,21 @@ class HeliocentricSplitting {
         softening_squared_(softening_squared),
         is_softened_(R(0) < softening_squared),
         total_(R(0)),
-        masses_(std::move(masses)) {
+        masses_(std::move(masses)),
+        encounters_(masses_) {
     for (const R& mass : masses_) total_ += mass;
   }
 
   HeliocentricState<R> state_of(const Spaces& positions, const Spaces& velocities) const {
-    const Spaces none(positions.size());
-    HeliocentricState<R> state{positions, velocities, none, none};
+    HeliocentricState<R> state;
+    state_of(positions, velocities, state);
+    return state;
+  }
+  void state_of(const Spaces& positions, const Spaces& velocities, HeliocentricState<R>& state) const {
+    state.r.resize(positions.size());
+    state.v.resize(positions.size());
+    state.added_r.assign(positions.size(), {});
+    state.added_v.assign(positions.size(), {});
     for (std::size_t k = 0; k < 3; ++k) {
       R moment(0);
       R momentum(0);
@@ -59,13 +69,12 @@ class HeliocentricSplitting {
       state.r[0][k] = moment / total_;
       state.v[0][k] = momentum / total_;
     }
-    return state;
   }
 
-  /// What has been added, to positions and to velocities of bodies.
-  std::pair<Spaces, Spaces> inertial_increments(const HeliocentricState<R>& state) const {
-    Spaces r = state.added_r;
-    Spaces v = state.added_v;
+  /// What has been added becomes r and v, for positions and velocities of bodies.
+  void inertial_increments(const HeliocentricState<R>& state, Spaces& r, Spaces& v) const {
+    r = state.added_r;
+    v = state.added_v;
     for (std::size_t k = 0; k < 3; ++k) {
       R moment(0);
       R momentum(0);
@@ -77,8 +86,12 @@ class HeliocentricSplitting {
       v[0][k] = -(momentum / masses_[0]);
       for (std::size_t i = 1; i < masses_.size(); ++i) r[i][k] += r[0][k];
     }
-    return {std::move(r), std::move(v)};
   }
+
+  /// Begins to watch for close encounters at the kicks of steps, or ends it.
+  void watch_encounters(bool watches) { encounters_.watch(watches); }
+  /// The first encounter since then; nullopt if there was none.
+  const std::optional<EncounterOfTwo>& first_encounter() const { return encounters_.first(); }
 
   Outcome step(HeliocentricState<R>& state, const R& h) {
     const R half = h / R(2);
@@ -124,6 +137,7 @@ class HeliocentricSplitting {
 
   void kick(HeliocentricState<R>& state, const R& h) {
     pulls_.assign(masses_.size(), {});
+    const bool watches = encounters_.begin(state.r);
     for (std::size_t i = 1; i < masses_.size(); ++i) {
       for (std::size_t j = i + 1; j < masses_.size(); ++j) {
         if (!(R(0) < masses_[i] + masses_[j])) continue;
@@ -133,6 +147,7 @@ class HeliocentricSplitting {
           d[k] = state.r[j][k] - state.r[i][k];
           square += d[k] * d[k];
         }
+        if (watches) encounters_.look(i, j, square);
         const R factor = constant_ / (square * sqrt(square));
         for (std::size_t k = 0; k < 3; ++k) {
           pulls_[i][k] += factor * masses_[j] * d[k];
@@ -161,6 +176,7 @@ class HeliocentricSplitting {
   R total_;
   std::vector<R> masses_;
   Spaces pulls_;
+  EncounterWatch<R> encounters_;
 };
 
 }  // namespace hamflow

@@ -59,6 +59,8 @@ struct EnergySummary {
   std::optional<double> scale;  // max(|H0|, |T| + |V|, p dH/dp); nullopt: the problem is a map
   // max_error divided by the scale; nullopt: H is 0 at the start, or the problem is a map
   std::optional<LongNumber> max_relative_error{};
+  // "recorded states": of a method with a corrector, as for invariants and means; empty: of every step
+  std::string of{};
 };
 
 /// H(q, p, t) of a driven problem.

@@ -20,6 +20,14 @@ struct WisdomHolman {
             std::vector<std::pair<std::string, WisdomHolmanCoordinates>>{
                 {"jacobi", WisdomHolmanCoordinates::jacobi},
                 {"democratic-heliocentric", WisdomHolmanCoordinates::heliocentric}}),
+        bind_number(
+            {.name = "corrector",
+             .default_value = "0",
+             .meaning = "3, 5, 7, 11 or 17: the order of a change of variables that removes the error proportional to "
+                        "the masses of the planets; it costs nothing between recorded states, in which it is undone. "
+                        "0: none",
+             .range = Range::whole_from(0, 17)},
+            &WisdomHolmanOptions::corrector),
         bind_word(
             {.name = "kernel",
              .default_value = "standard",
@@ -41,7 +49,8 @@ struct WisdomHolman {
         .rank = 1,
         .not_on_lattice = "its changes of coordinates are no bijections of the lattice",
         .representatives = {"wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)",
-                            "wisdom-holman(kernel=lazy)"},
+                            "wisdom-holman(kernel=lazy)", "wisdom-holman(corrector=11)",
+                            "wisdom-holman(corrector=17,kernel=lazy)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read_options(options(), given)); },
         .needs = [](std::size_t) { return "bodies under gravity (n-body, solar-system)"; },
         .advice =
@@ -55,9 +64,15 @@ struct WisdomHolman {
             },
         .refused = [](const Texts& given) -> std::pair<std::string, std::string> {
           const WisdomHolmanOptions read = read_options(options(), given);
-          const bool is_lazy = read.kernel == WisdomHolmanKernel::lazy;
-          if (!is_lazy || read.coordinates == WisdomHolmanCoordinates::jacobi) return {};
-          return {"kernel", "found lazy with democratic-heliocentric coordinates; allowed with jacobi"};
+          const std::string found = std::to_string(read.corrector);
+          if (read.corrector != 0 && !corrector_stages().contains(read.corrector)) {
+            return {"corrector", "found " + found + "; allowed 0, 3, 5, 7, 11, 17"};
+          }
+          if (read.coordinates == WisdomHolmanCoordinates::jacobi) return {};
+          const std::string with = " with democratic-heliocentric coordinates; allowed with jacobi";
+          if (read.corrector != 0) return {"corrector", "found " + found + with};
+          if (read.kernel == WisdomHolmanKernel::lazy) return {"kernel", "found lazy" + with};
+          return {};
         },
         .hint = [](const Texts&, const UsableAdvice&) { return "try a smaller dt, or dop853 for a close encounter"; }};
   }

@@ -161,11 +161,25 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
   Vector<S, dynamic> invariants(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, const S& t) const {
     if (!has_massless()) return Base::invariants(q, p, t);
     const std::size_t n = space();
-    Vector<S, dynamic> of_massive = p;
-    for (const std::size_t i : model().massless) {
-      for (std::size_t k = 0; k < n; ++k) of_massive[i * n + k] = S(R(0));
+    const std::size_t rotations = n == 2 ? 1 : 3;
+    Vector<S, dynamic> all(rotations + 2 * n);
+    for (const std::size_t i : model().massive) {
+      const std::size_t at = i * n;
+      for (std::size_t k = 0; k < rotations; ++k) {
+        const std::size_t a = at + (n == 2 ? 0 : (k + 1) % 3);
+        const std::size_t b = at + (n == 2 ? 1 : (k + 2) % 3);
+        all[k] += q[a] * p[b] - q[b] * p[a];
+      }
+      for (std::size_t k = 0; k < n; ++k) {
+        all[rotations + k] += p[at + k];
+        all[rotations + n + k] += q[at + k] * model().masses[i];
+      }
     }
-    return Base::invariants(q, of_massive, t);
+    for (std::size_t k = 0; k < n; ++k) {
+      S& centre = all[rotations + n + k];
+      centre = (centre - all[rotations + k] * t) / model().total_mass;
+    }
+    return all;
   }
 
   static std::vector<InvariantInfo> gravity_invariants() {
