@@ -51,7 +51,8 @@ def test_wrong(call, words):
 
 
 BODIES = [{"name": "Sun", "mass": 1}, {"name": "Jupiter", "mass": "1/1047.3486", "a": 5.2, "e": 0.05},
-          {"name": "comet", "mass": 0, "pericentre_distance": 0.6, "e": 0.9, "inclination": "162 deg", "node": 1}]
+          {"name": "comet", "mass": 0, "pericentre_distance": 0.6, "e": 0.9, "inclination": "162 deg", "node": 1,
+           "primary": "Sun"}]
 
 
 def test_bodies_of_a_run():

@@ -121,7 +121,8 @@ class WisdomHolman(CommandCase):
             self.assertLess(fine, coarse / 3, errors)
 
     def test_the_start_is_not_changed_by_a_corrector(self):
-        plain, corrected = (self.run_with(method, 0)["final"] for method in ("wisdom-holman", CORRECTED[4]))
+        plain, corrected = (self.run_with(method, 1, sets=("run.steps=0",))["final"]
+                            for method in ("wisdom-holman", CORRECTED[4]))
         self.assertEqual(plain, corrected)
 
     def test_a_corrector_in_every_arithmetic(self):
@@ -148,11 +149,12 @@ class WisdomHolman(CommandCase):
             self.write("s.toml", SYSTEM.format(method=method, steps=100, mass="1e-3", time=10, arithmetic="double",
                                                more="", options=""))
             out = f"sweep{len(list(self.folder.iterdir()))}"
-            self.hamflow("sweep", "s.toml", "--vary", "problem.bodies[1].e=0.01,0.1,0.3", "--out", out)
+            self.hamflow("sweep", "s.toml", "--vary", "problem.bodies[1].e=0.01,0.1,0.3",
+                         "--set", 'output.formats=["csv"]', "--out", out)
             rows = list(csv.DictReader((self.folder / out / "sweep.csv").read_text().splitlines()))
             for row, e in zip(rows, ("0.01", "0.1", "0.3")):
                 alone = self.summary("s.toml", "--set", f"problem.bodies[1].e={e}")
-                self.assertEqual(float(row["energy_final"]), alone["energy"]["final"], row)
+                self.assertEqual(float(row["energy/final"]), alone["energy"]["final"], row)
 
     def test_verify_measures_the_claims(self):
         for method in METHODS:
@@ -173,7 +175,7 @@ class WisdomHolman(CommandCase):
 
     def test_it_is_reversible(self):
         s = self.run_with("saba(8,6,4)", 1000, time=100)
-        self.assertLess(s["certificate"]["reversal_distance"] or 0, 1e-11)
+        self.assertEqual(s["certificate"]["reversal_distance"]["proves"], "reversible to rounding")
 
     def test_lyapunov_exponents(self):
         """The derivative of a step in Kepler drifts: two regular planets have exponents near 0."""
