@@ -197,7 +197,15 @@ const OutputKeys& output_keys() {
                                                           "recorded with every sample and averaged over every step",
                                                .type = OptionType::table,
                                                .unset = "none",
-                                               .example = "{ square = \"q1^2\" }"}};
+                                               .example = "{ square = \"q1^2\" }"},
+                               .elements = {.name = "elements",
+                                            .meaning = "orbital elements of bodies, recorded with every sample as "
+                                                       "Jupiter.a, Jupiter.e, ...: about the centre of mass of the "
+                                                       "bodies before each (jacobi), of all (barycentre), or a body",
+                                            .type = OptionType::text,
+                                            .unset = "none",
+                                            .condition = "for n-body and solar-system",
+                                            .example = "jacobi"}};
   return keys;
 }
 
@@ -209,7 +217,7 @@ const std::vector<DeclaredTable>& declared_tables() {
         {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
           r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.lattice, r.threads}},
-        {output_table, {o.folder, o.formats, o.figures, o.observables}}};
+        {output_table, {o.folder, o.formats, o.figures, o.observables, o.elements}}};
   }();
   return tables;
 }

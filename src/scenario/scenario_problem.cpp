@@ -1,6 +1,7 @@
 // Reads [problem]: the choice of the problem and its parameters.
 #include <algorithm>
 
+#include "hamflow/detail/problems/body_keys.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -111,6 +112,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   }
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
+  if (takes_body_list(info)) read_body_list(table);
   for (const ParameterInfo& parameter : info.parameters) {
     if (scenario_.request.parameters.contains(parameter.name)) continue;  // already read together with the entry
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {

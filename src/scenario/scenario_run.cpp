@@ -82,6 +82,7 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     scenario_.request.start.q = start_of_bodies_.q;
     scenario_.request.start.p = start_of_bodies_.p;
   }
+  if (digits_beyond_double(*name) > 0) place_bodies(table, *name);
   const std::string why_not =
       has_method() ? refusal_with_advice(scenario_.request.method, scenario_.problem.get(), *name) : "";
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);

@@ -205,7 +205,9 @@ void ScenarioReader::read_frame(TomlTable& table) {
   const OptionInfo& key = scenario_.problem->info.frame;
   if (key.name.empty()) return;
   const auto frame = table.text(key);
-  const std::string usual = table.has("initial") ? StartFrames::given : key.default_value;
+  const std::string usual = table.has("initial")  ? StartFrames::given
+                            : table.has("bodies") ? StartFrames::barycentric
+                                                  : key.default_value;
   scenario_.request.start.barycentric = frame.value_or(usual) == StartFrames::barycentric;
 }
 

@@ -2,9 +2,11 @@
 // double have a separate file with light optimisation, because only few of their steps run as compiled code.
 #pragma once
 
+#include "engine/corrected_simulation.hpp"
 #include "engine/interruptible_functions.hpp"
 #include "engine/iterated_simulation.hpp"
 #include "engine/iteration_recorder.hpp"
+#include "engine/planetary_steps.hpp"
 #include "engine/recorded_simulation.hpp"
 #include "engine/varying_steps.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
@@ -129,6 +131,13 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
               iteration_recorder(run.functions, c, recipe.options), stage_recorder(run.functions, c, recipe.options),
               request.record));
+        } else if constexpr (EncounterWatcher<decltype(method)>) {
+          if (method.has_corrector()) {
+            return std::make_unique<CorrectedSimulation<P, decltype(method), A>>(problem, method, run.q, run.p, run.h,
+                                                                                 arithmetic);
+          }
+          return requested(
+              std::make_unique<PlanetarySimulation<Parted>>(problem, method, run.q, run.p, run.h, arithmetic));
         } else {
           return requested(std::make_unique<Parted>(problem, method, run.q, run.p, run.h, arithmetic));
         }

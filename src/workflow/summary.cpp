@@ -10,7 +10,9 @@
 
 #include "bounce_names.hpp"
 #include "core/text_place.hpp"
+#include "element_columns.hpp"
 #include "engine/large_steps.hpp"
+#include "engine/planetary_steps.hpp"
 #include "engine/wall_failures.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
@@ -123,6 +125,19 @@ std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   const Frame planar = to_plane ? to_plane(scenario.request.parameters, frame.q, frame.p) : frame;
   const auto [first, second] = scenario.bodies->at(frame.time, {planar.q[0], planar.q[1]}, {planar.p[0], planar.p[1]});
   return {first, second};
+}
+
+Value::Table elements_summary(const Scenario& scenario, const Frame& frame) {
+  const auto elements = elements_at(scenario, frame);
+  Value::Table all;
+  for (const std::size_t body : bodies_with_elements(scenario)) {
+    Value::Table of_body;
+    for (const ElementColumn& column : element_columns()) {
+      of_body.emplace_back(column.name, (*elements[body]).*column.value);
+    }
+    all.emplace_back(body_name(scenario, body), std::move(of_body));
+  }
+  return all;
 }
 
 /// Returns the start that was computed from an energy, in the digits of the run.
@@ -419,6 +434,8 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.steps = simulation.step();
   if (!request.start.energy.empty()) s.start = start_of(scenario);
   s.energy = energy_of(scenario, simulation.energy(), frame.digits, certificate);
+  const auto* const planets = dynamic_cast<const PlanetarySteps*>(&simulation);
+  if (planets != nullptr && !planets->watches_every_step()) s.energy.of = "recorded states";
   if (scenario.hamiltonian) {  // the energy above is H minus the work of the drive
     Frame start;
     start.q = scenario.start_q;
@@ -439,6 +456,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.constraints = simulation.constraints();
   if (method.diagnostics) s.diagnostics = diagnostics_of(simulation.diagnostics(), scenario.dt);
   if (scenario.bodies) s.bodies = bodies_of(scenario, frame);
+  if (scenario.elements) s.elements = elements_summary(scenario, frame);
   if (problem.describe_orbit && !scenario.map) s.orbit = orbit_of(scenario);
   if (problem.exact && !scenario.map) s.exact = exact_of(scenario, frame);
   s.effort = simulation.effort();

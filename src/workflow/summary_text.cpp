@@ -129,7 +129,8 @@ std::string summary_text(const Summary& s) {
   row(s.hamiltonian ? "H - int dH/dt" : "energy",
       watched_text(number(energy.initial), number(energy.final), energy.max_error) +
           (is_relative ? fmt::format(" ({} of the energy scale)", number_text(*energy.max_relative_error, "{:.3g}"))
-                       : " (no relative error, because H is 0 at the start)"));
+                       : " (no relative error, because H is 0 at the start)") +
+          (energy.of.empty() ? "" : "; errors are those of " + energy.of));
   for (const InvariantSummary& each : s.invariants) row(each.name, invariant_text(each));
   if (s.constraints) {
     row("constraints", "|g| at most " + number_text(s.constraints->position, "{:.3g}") + ", |g' M^-1 p| at most " +

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "element_columns.hpp"
+#include "engine/planetary_steps.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/section.hpp"
@@ -193,6 +195,18 @@ void add_long_search(const Scenario& scenario, const Simulation& simulation, std
       {"long_step", fmt::format("dt = {:g} is half a period of the motion or more, so bounces, section points "
                                 "and events may be missing or spurious; try a smaller dt",
                                 scenario.dt)});
+}
+
+/// Warns if two bodies came so close that the motion is no longer nearly a Kepler motion of each body.
+void add_close_encounter(const Scenario& scenario, const Simulation& simulation, std::vector<Warning>& all) {
+  const auto* const planets = dynamic_cast<const PlanetarySteps*>(&simulation);
+  const auto met = planets != nullptr ? planets->first_encounter() : std::nullopt;
+  if (!met) return;
+  all.push_back({"close_encounter",
+                 fmt::format("{} and {} came within 3 Hill radii of each other at t = {:.6g}, where {} is inaccurate; "
+                             "try dop853, which adapts its steps, or a smaller dt",
+                             body_name(scenario, met->bodies.first), body_name(scenario, met->bodies.second), met->time,
+                             simulation.method().name)});
 }
 
 /// Warns about invariants that are not finite at the start or at the end, so that their errors are unknown.
@@ -408,6 +422,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summar
   }
   std::vector<Warning> all = warnings_of(scenario, motion);
   if (!scenario.map && !is_free_motion(scenario, motion.end)) add_long_search(scenario, simulation, all);
+  add_close_encounter(scenario, simulation, all);
   add_no_numbers(summary, all);
   return all;
 }
