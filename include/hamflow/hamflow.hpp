@@ -149,6 +149,7 @@
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/simulation_of.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/coordinates.hpp"

@@ -1,6 +1,7 @@
 #include "step_control.hpp"
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/socket.hpp"
 
 namespace hamflow {
 
@@ -65,6 +66,10 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
 
 std::string refused_monitor(const MethodSpec& method, const ProblemEntry& problem) {
   const StepControl control = step_control_of(method);
+  if (control.reversible && problem.info.name == SocketKeys::problem) {
+    return std::string(step_control_option) + ": found \"" + reversible_steps + "\" for " + problem.info.name +
+           "; allowed " + fixed_steps + ", because monitors need second derivatives, which a client does not send";
+  }
   if (!control.reversible || control.monitor == default_monitor || problem.has_distance) return {};
   return std::string(monitor_option) + ": found \"" + control.monitor + "\" for " + problem.info.name +
          ", which has neither a centre nor bodies; allowed " + default_monitor +

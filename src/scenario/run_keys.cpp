@@ -4,6 +4,7 @@
 
 #include "figure_kinds.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/socket.hpp"
 
 namespace hamflow {
 
@@ -228,11 +229,14 @@ const DeclaredTable& declared_table(const std::string& name) {
 }
 
 bool is_free_on_resume(const std::string& path) {
-  return std::any_of(declared_tables().begin(), declared_tables().end(), [&](const DeclaredTable& table) {
-    return std::any_of(table.keys.begin(), table.keys.end(), [&](const OptionInfo& key) {
-      return key.free_on_resume && path == table.name + "." + key.name;
-    });
-  });
+  return std::any_of(declared_tables().begin(), declared_tables().end(),
+                     [&](const DeclaredTable& table) {
+                       return std::any_of(table.keys.begin(), table.keys.end(), [&](const OptionInfo& key) {
+                         return key.free_on_resume && path == table.name + "." + key.name;
+                       });
+                     }) ||
+         std::any_of(socket_options().begin(), socket_options().end(),
+                     [&](const OptionInfo& key) { return key.free_on_resume && path == "problem." + key.name; });
 }
 
 }  // namespace hamflow

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
@@ -59,6 +60,10 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
     table.complain(key, table.found(key) + " with " + arithmetic.name + " \"" + scenario_.request.arithmetic +
                             "\"; allowed with " + arithmetic.name + " = \"" + arithmetic.default_value +
                             "\", because steps are differentiated only in double");
+  }
+  if (scenario_.request.problem == SocketKeys::problem) {
+    table.complain(key, table.found(key) + "; allowed for problems other than " + SocketKeys::problem +
+                            ", because a client sends no second derivatives");
   }
   if (has_method() && describe(scenario_.request.method).halves_steps) {
     table.complain(key, table.found(key) +

@@ -3,6 +3,7 @@
 
 #include "hamflow/detail/problems/body_keys.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/socket.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
 #include "suggested_names.hpp"
@@ -105,7 +106,15 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const std::shared_ptr<const ProblemEntry> listed = find_problem(*name, {});
   const bool typed = listed->structure || has_typed_choice(table, listed->info);
   const bool particles = static_cast<bool>(listed->particles);
-  particles ? read_gas(table) : typed ? read_typed_problem(table, *listed) : read_variant(table, *name);
+  if (particles) {
+    read_gas(table);
+  } else if (typed) {
+    read_typed_problem(table, *listed);
+  } else if (*name == SocketKeys::problem) {
+    read_address(table);
+  } else {
+    read_variant(table, *name);
+  }
   if (scenario_.problem == nullptr) {
     if (!particles) read_without_variant(table, *name);  // read_gas() has reported all errors of a gas
     return;
@@ -142,6 +151,19 @@ void ScenarioReader::read_problem(TomlTable& table) {
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);
+}
+
+/// Reads the address, which chooses the entry of the problem `socket`.
+void ScenarioReader::read_address(TomlTable& table) {
+  const OptionInfo& key = *find_option(socket_options(), SocketKeys::address);
+  const auto address = table.text(key);
+  if (!address) return;
+  if (const std::string why_not = refused_address(*address); !why_not.empty()) {
+    table.complain(key.name, why_not);
+    return;
+  }
+  scenario_.request.variant[key.name] = *address;
+  scenario_.problem = find_problem(scenario_.request.problem, scenario_.request.variant);
 }
 
 void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {

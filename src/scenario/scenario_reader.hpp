@@ -74,6 +74,7 @@ class ScenarioReader {
   void read_problem(TomlTable& table);
   void read_without_variant(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
+  void read_address(TomlTable& table);
   static std::vector<std::string> choices_of_key(const std::string& name, const std::string& key);
   void read_typed_problem(TomlTable& table, const ProblemEntry& listed);
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/run/socket.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -78,6 +79,11 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     return;
   }
   scenario_.request.arithmetic = *name;
+  if (scenario_.request.problem == SocketKeys::problem && digits_beyond_double(*name) > 0) {
+    table.complain(key.name,
+                   table.found(key.name) +
+                       "; allowed double, compensated or lattice, because a client sends its forces in double");
+  }
   if (scenario_.bodies && digits_beyond_double(*name) > 0) {
     scenario_.request.start.q = start_of_bodies_.q;
     scenario_.request.start.p = start_of_bodies_.p;

@@ -4,6 +4,7 @@
 
 #include "gas/container.hpp"
 #include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 #include "wall_checks.hpp"
@@ -68,6 +69,11 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const bool fixed = !info.walls.empty();
   table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
   const std::size_t before = complaints_.size();
+  if (info.name == SocketKeys::problem && table.has_any(keys.walls.name)) {
+    table.complain(keys.walls.name,
+                   "found walls; allowed without walls for " + info.name + ", whose client computes all forces");
+    return;
+  }
   if (!fixed && !scenario_.problem->constraint_form.empty() && table.has_any(keys.walls.name)) {
     table.complain(keys.walls.name,
                    "found walls together with constraints, which are not supported; allowed in coordinates without "

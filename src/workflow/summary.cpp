@@ -331,6 +331,14 @@ RunError error_of(const Scenario& scenario, const Simulation& simulation, const 
                 "; samples written before the failure are kept",
             {}};
   }
+  if (!result.client_error.empty()) {
+    return {"client",
+            frame.step + 1,
+            frame.time,
+            fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time), result.client_error),
+            "start the client again, and continue from the step before with " + option_name("resume"),
+            {}};
+  }
   const bool says_more =
       result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
   const bool has_message = says_more && !result.failure.empty();
@@ -424,7 +432,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   Frame frame;
   simulation.look(frame);
   Summary s;
-  s.status = result.file_error.empty() ? status_of(result.outcome) : "failed";
+  s.status = result.file_error.empty() && result.client_error.empty() ? status_of(result.outcome) : "failed";
   s.problem = request.problem;
   s.method = method.name;
   s.arithmetic = request.arithmetic;
