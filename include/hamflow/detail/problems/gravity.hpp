@@ -196,7 +196,7 @@ class Gravity : public PairSystem<R, GravityModel<R>> {
             "barycentric: move the centre of mass of the start to the origin, at rest; given: leave the start as it is",
         .type = OptionType::word,
         .words = {StartFrames::given, StartFrames::barycentric},
-            .condition = "with initial the default is \"given\", with bodies \"barycentric\""};
+        .condition = "with initial the default is \"given\", with bodies \"barycentric\""};
   }
 
   /// The logarithmic rate of d = (sum_{i<j} u_ij^-3)^(-1/6), u = r^2 + softening^2. d approximates the distance of the
