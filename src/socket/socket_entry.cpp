@@ -99,7 +99,7 @@ void add_functions(ProblemEntry& e, const std::string& address) {
   const std::shared_ptr<ForceServer> server = address.empty() ? nullptr : ForceServer::at(address);
   e.refused_size = refused_size;
   e.refused_parameters = refused_parameters;
-  e.refused_start = [](const Texts&, const std::vector<double>&) { return std::string(); };
+  e.refused_start = [](const Texts&, const std::vector<double>&) { return StartRefusal(); };
   e.accepts = [usable = server != nullptr](const MethodSpec& method) {
     if (!usable || method.name == "taylor") return false;  // a series needs all derivatives
     return visit_method(method, [](const auto& recipe) { return is_accepted<SocketProblem>(recipe); });
