@@ -27,6 +27,7 @@
 #include "number_text.hpp"
 #include "orbit_digits.hpp"
 #include "run_description.hpp"
+#include "run_keys.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
@@ -68,7 +69,9 @@ bool has_parameter(const ProblemEntry& problem, const std::string& name) {
 Value::Table parameters_of(const Scenario& scenario) {
   Value::Table parameters;
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
+  const auto is_free = [](const std::string& key) { return is_free_on_resume("problem." + key); };
   for (const auto& [key, value] : scenario.problem->info.variant) {
+    if (is_free(key)) continue;
     // The choices of the problem `formula` are formulas, which are in the scenario. The parameters follow below.
     if (has_typed_hamiltonian(*scenario.problem) || key == FormulaKeys::parameters) continue;
     const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // as in dimension = 3
@@ -86,7 +89,7 @@ Value::Table parameters_of(const Scenario& scenario) {
   }
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
-    if (!values.has(parameter.name)) continue;
+    if (!values.has(parameter.name) || is_free(parameter.name)) continue;
     const std::vector<double>& list = values.list(parameter.name);
     const bool single =
         parameter.type == OptionType::number || (parameter.type == OptionType::number_or_list && list.size() == 1);

@@ -92,8 +92,7 @@ class Motion(SocketCase):
 
     def test_a_client_with_the_forces_of_the_gas_gives_its_motion(self):
         for method in ("verlet", "stv4", "dop853", "rk4"):
-            self.scenario(name='"socket"')
-            self.write("s.toml", (self.folder / "s.toml").read_text().replace('"verlet"', f'"{method}"'))
+            self.write("s.toml", (SCENARIO % (self.address, "")).replace('"verlet"', f'"{method}"'))
             self.served("run", "s.toml", "--out", "s", "--force")
             q, _ = self.samples("s")
             # 60 steps of a motion that is not chaotic yet: some hundred roundings of forces of size 10.
@@ -133,6 +132,13 @@ class Motion(SocketCase):
         done, _ = self.served("reverse", "s.toml", "--json")
         self.assertLess(json.loads(done.stdout)["relative_distance"], 1e-12)
 
+    def test_the_template_runs(self):
+        self.write("new.toml", self.hamflow("new", "socket", "--all").stdout)
+        done, _ = self.served("run", "new.toml", "--out", "none", "--json", "--set", f"problem.address={self.address}", law="springs")
+        self.assertLess(json.loads(done.stdout)["energy"]["max_relative_error"], 1e-6)
+        self.assertIn("socket", self.hamflow("list", "problems").stdout)
+        self.assertIn("length_unit", self.hamflow("show", "socket").stdout)
+
     def test_certificate(self):
         self.scenario()
         done, _ = self.served("run", "s.toml", "--out", "none", "--json")
@@ -162,7 +168,7 @@ class Faults(SocketCase):
             self.assertIn("--resume", done.stderr)
             summary = json.loads(done.stdout)
             self.assertEqual((summary["status"], summary["steps"], summary["error"]["kind"]), ("failed", 42, "client"))
-            self.assertEqual(len(self.samples(fault)[0]), 9)
+            self.assertEqual(len(self.samples(fault)[0]), 10)  # every fifth step, and the last state
             self.scenario(timeout=7)  # the timeout and the address are free
             self.served("run", "s.toml", "--out", fault, "--resume")
             for found, wanted in zip(self.samples(fault), whole):
@@ -247,7 +253,7 @@ initial = {{ q = {q.ravel().tolist()}, p = {p.ravel().tolist()} }}
 [method]
 name = "{method}"
 [run]
-dt = 0.004
+dt = 0.002
 {run}
 """)
 
