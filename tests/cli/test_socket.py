@@ -240,8 +240,8 @@ class Lammps(SocketCase):
         atoms = "\n".join(f"{i + 1} 1 {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(q.tolist()))
         bounds = "\n".join(f"{-edge / 2!r} {edge / 2!r} {x}lo {x}hi" for x in "xyz")
         self.write("melt.data", f"melt\n\n{len(q)} atoms\n1 atom types\n{bounds}\n\nMasses\n\n1 1\n\nAtoms # atomic\n\n{atoms}\n")
-        self.write("melt.in", "units lj\natom_style atomic\natom_modify map yes\nread_data melt.data\npair_style lj/smooth 2 2.5\n"
-                              "pair_coeff 1 1 1 1\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n"
+        self.write("melt.in", "units lj\natom_style atomic\natom_modify map yes\nread_data melt.data\npair_style lj/smooth/linear 2.5\n"
+                              "pair_coeff 1 1 1 1 2.5\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n"
                               f"fix 1 all ipi {self.address[5:]} 31415 unix\nrun 100000000\n")
         self.write("s.toml", f"""
 [problem]
@@ -269,7 +269,7 @@ dt = 0.002
         self.melt("verlet", "steps = 200\ncertificate = false")
         summary = json.loads(self.lammps("run", "s.toml", "--out", "none", "--json").stdout)
         self.assertEqual(summary["evaluations"]["force"], 201)
-        self.assertLess(summary["energy"]["max_relative_error"], 1e-3)  # (w dt)^2/24 of verlet with w = 20
+        self.assertLess(summary["energy"]["max_relative_error"], 1e-4)  # (w dt)^2/24 of verlet with w = 20 is 7e-5
         done = json.loads(self.lammps("reverse", "s.toml", "--json", "--set", "run.steps=100").stdout)
         self.assertLess(done["relative_distance"], 1e-8)
 
@@ -278,7 +278,7 @@ dt = 0.002
             self.skipTest("mpirun is not installed")
         self.melt("verlet", "steps = 50\ncertificate = false")
         summary = json.loads(self.lammps("run", "s.toml", "--out", "none", "--json", processes=2).stdout)
-        self.assertLess(summary["energy"]["max_relative_error"], 1e-3)
+        self.assertLess(summary["energy"]["max_relative_error"], 1e-4)
 
 
 if __name__ == "__main__":
