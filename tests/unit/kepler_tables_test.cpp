@@ -77,7 +77,9 @@ TEST(KeplerTables, OrderConditions) {
     for (int m = 0; m <= q; ++m) {
       for (int n = 0; m + n + 2 <= q + 1; ++n) {
         const double defect = square_defect(kicks, m, n);
-        if (m + n + 2 <= q) EXPECT_LT(defect, tolerance) << chosen.name << " " << m << " " << n;
+        if (m + n + 2 <= q) {
+          EXPECT_LT(defect, tolerance) << chosen.name << " " << m << " " << n;
+        }
         next = std::max(next, m + n + 2 > q ? defect : 0);
       }
     }
