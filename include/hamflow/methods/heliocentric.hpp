@@ -22,25 +22,26 @@ namespace hamflow {
 template <class R>
 struct HeliocentricState {
   using Space = Vector<R, 3>;
-  std::vector<Space> r;
-  std::vector<Space> v;
-  std::vector<Space> added_r;
-  std::vector<Space> added_v;
+  PooledList<Space> r;
+  PooledList<Space> v;
+  PooledList<Space> added_r;
+  PooledList<Space> added_v;
 };
 
 template <class R>
 class HeliocentricSplitting {
  public:
   using Space = Vector<R, 3>;
-  using Spaces = std::vector<Space>;
+  using Spaces = PooledList<Space>;
 
   /// @param masses the heaviest first; 0: a massless body   @param softening_squared as in JacobiSplitting
-  HeliocentricSplitting(std::vector<R> masses, const R& gravitational_constant, const R& softening_squared = R(0))
+  HeliocentricSplitting(const std::vector<R>& masses, const R& gravitational_constant,
+                        const R& softening_squared = R(0))
       : constant_(gravitational_constant),
         softening_squared_(softening_squared),
         is_softened_(R(0) < softening_squared),
         total_(R(0)),
-        masses_(std::move(masses)),
+        masses_(masses.begin(), masses.end()),
         encounters_(masses_) {
     for (const R& mass : masses_) total_ += mass;
   }
@@ -174,7 +175,7 @@ class HeliocentricSplitting {
   R softening_squared_;
   bool is_softened_;
   R total_;
-  std::vector<R> masses_;
+  PooledList<R> masses_;
   Spaces pulls_;
   EncounterWatch<R> encounters_;
 };

@@ -64,10 +64,10 @@ std::vector<R> corrector_weights(std::size_t stages) {
 template <class R>
 struct JacobiState {
   using Space = Vector<R, 3>;
-  std::vector<Space> r;
-  std::vector<Space> v;
-  std::vector<Space> added_r;
-  std::vector<Space> added_v;
+  PooledList<Space> r;
+  PooledList<Space> v;
+  PooledList<Space> added_r;
+  PooledList<Space> added_v;
 };
 
 /// Bodies of given masses in Jacobi coordinates, and the two parts of their motion.
@@ -75,17 +75,17 @@ template <class R>
 class JacobiSplitting {
  public:
   using Space = Vector<R, 3>;
-  using Spaces = std::vector<Space>;
+  using Spaces = PooledList<Space>;
 
   /// @param masses the heaviest first; 0: a massless body
   /// @param softening_squared B has what softening changes: the splitting is then right, but the error of a step is no
   /// longer proportional to the masses of the planets
-  JacobiSplitting(std::vector<R> masses, const R& gravitational_constant, const R& softening_squared = R(0))
+  JacobiSplitting(const std::vector<R>& masses, const R& gravitational_constant, const R& softening_squared = R(0))
       : constant_(gravitational_constant),
         softening_squared_(softening_squared),
         is_softened_(R(0) < softening_squared),
         total_(R(0)),
-        masses_(std::move(masses)),
+        masses_(masses.begin(), masses.end()),
         encounters_(masses_) {
     share_.resize(masses_.size());
     attraction_.resize(masses_.size());
@@ -214,7 +214,8 @@ class JacobiSplitting {
 
   /// C = Z(-m) ... Z(-1) Z(1) ... Z(m) from left to right, Z(k) = A(k s) B(-b_k dt) A(-2 k s) B(b_k dt) A(k s), s =
   /// sqrt(7/40) dt, b_-k = -b_k: to the variables in which the map runs. Undone with the weights negated.
-  Outcome correct(JacobiState<R>& state, const R& dt, const std::vector<R>& weights) {
+  template <class List>
+  Outcome correct(JacobiState<R>& state, const R& dt, const List& weights) {
     const int stages = static_cast<int>(weights.size());
     const R unit = sqrt(R(7) / R(40)) * dt;
     const auto corrector_kick = [&](const R& h) {
@@ -296,11 +297,11 @@ class JacobiSplitting {
   R softening_squared_;
   bool is_softened_;
   R total_;
-  std::vector<R> masses_;
-  std::vector<R> share_;       // m_i/M_i
-  std::vector<R> attraction_;  // of each body about the centre of mass of those before it, G M_i
-  std::vector<std::size_t> massive_;
-  std::vector<std::size_t> massless_;
+  PooledList<R> masses_;
+  PooledList<R> share_;       // m_i/M_i
+  PooledList<R> attraction_;  // of each body about the centre of mass of those before it, G M_i
+  PooledList<std::size_t> massive_;
+  PooledList<std::size_t> massless_;
   // Memory of `interaction`, kept from step to step.
   Spaces acceleration_;
   Spaces relative_;

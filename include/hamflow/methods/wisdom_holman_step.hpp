@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -96,7 +97,9 @@ class WisdomHolmanStep {
   using State = PhasePoint<A, n>;
 
   WisdomHolmanStep(const P& problem, const WisdomHolmanOptions& options, MethodInfo info)
-      : options_(options), info_(std::move(info)), splitting_(splitting_of(problem, options)) {
+      : options_(options),
+        info_(std::make_shared<const MethodInfo>(std::move(info))),
+        splitting_(splitting_of(problem, options)) {
     const KeplerTable& table = kepler_tables()[options.table];
     for (std::size_t k = 0; k <= table.kicks; ++k) {
       drifts_by_.push_back(evaluate_number<Base>(table.drifts_by[table.drift_index(k)]));
@@ -115,7 +118,7 @@ class WisdomHolmanStep {
     v_.resize(inertia_.size());
   }
 
-  MethodInfo info() const { return info_; }
+  MethodInfo info() const { return *info_; }
   Effort effort() const { return {.force = forces_}; }
   void invalidate() {}
   template <class Archive>
@@ -156,9 +159,9 @@ class WisdomHolmanStep {
       }
     });
     if (outcome != Outcome::done) return outcome;
-    forces_ += info_.forces_per_step;
+    forces_ += info_->forces_per_step;
     const auto met = std::visit([](const auto& splitting) { return splitting.first_encounter(); }, splitting_);
-    if (met) encounter_ = {forces_ / info_.forces_per_step, met->first, met->second};
+    if (met) encounter_ = {forces_ / info_->forces_per_step, met->first, met->second};
     return Outcome::done;
   }
 
@@ -170,7 +173,7 @@ class WisdomHolmanStep {
   using Jacobi = JacobiSplitting<Real>;
   using Heliocentric = HeliocentricSplitting<Real>;
   using Splitting = std::variant<Jacobi, Heliocentric>;
-  using Spaces = std::vector<Vector<Real, 3>>;
+  using Spaces = PooledList<Vector<Real, 3>>;
 
   /// z <- z + what `action` adds to it in the coordinates of the splitting.
   template <class Action>
@@ -234,19 +237,19 @@ class WisdomHolmanStep {
     for (const auto& mass : bodies.masses) masses.push_back(Real(Base(mass)));
     const Real constant{Base(bodies.gravitational_constant)};
     const Real softening{Base(bodies.softening_squared)};
-    if (options.coordinates == WisdomHolmanCoordinates::jacobi) return Jacobi(std::move(masses), constant, softening);
-    return Heliocentric(std::move(masses), constant, softening);
+    if (options.coordinates == WisdomHolmanCoordinates::jacobi) return Jacobi(masses, constant, softening);
+    return Heliocentric(masses, constant, softening);
   }
 
   WisdomHolmanOptions options_;
-  MethodInfo info_;
+  std::shared_ptr<const MethodInfo> info_;
   Splitting splitting_;
-  std::vector<Base> drifts_by_;
-  std::vector<Base> kicks_by_;
+  PooledList<Base> drifts_by_;
+  PooledList<Base> kicks_by_;
   std::size_t space_ = 3;
-  std::vector<Base> inertia_;
-  std::vector<Real> weights_;  // of the corrector
-  std::vector<Real> negative_weights_;
+  PooledList<Base> inertia_;
+  PooledList<Real> weights_;  // of the corrector
+  PooledList<Real> negative_weights_;
   bool corrects_ = true;
   long long forces_ = 0;
   Encounter encounter_;

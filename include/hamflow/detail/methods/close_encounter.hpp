@@ -7,8 +7,13 @@
 #include <vector>
 
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/core/pool.hpp"
 
 namespace hamflow {
+
+/// A list that a copied method holds. A simulation copies its method at each call, and the pool keeps the memory.
+template <class T>
+using PooledList = std::vector<T, PoolAllocator<T>>;
 
 /// Two bodies, by index, neither of which is the first.
 using EncounterOfTwo = std::pair<std::size_t, std::size_t>;
@@ -18,7 +23,7 @@ using EncounterOfTwo = std::pair<std::size_t, std::size_t>;
 template <class R>
 class EncounterWatch {
  public:
-  explicit EncounterWatch(const std::vector<R>& masses) : within_(masses.size()) {
+  explicit EncounterWatch(const PooledList<R>& masses) : within_(masses.size()) {
     // The condition is d^6 < 81 (m/m_0)^2 r^6, without roots.
     for (const R& mass : masses) factors_.push_back(R(81) * (mass / masses[0]) * (mass / masses[0]));
   }
@@ -33,7 +38,7 @@ class EncounterWatch {
 
   /// Prepares for the pairs of a state. Returns false if they are not watched.
   /// @param positions of each body, from the centre of its orbit
-  bool begin(const std::vector<Vector<R, 3>>& positions) {
+  bool begin(const PooledList<Vector<R, 3>>& positions) {
     if (!watches_ || first_) return false;
     for (std::size_t i = 1; i < within_.size(); ++i) {
       if (!(R(0) < factors_[i])) continue;
@@ -51,8 +56,8 @@ class EncounterWatch {
   }
 
  private:
-  std::vector<R> factors_;
-  std::vector<R> within_;  // the sixth power of 3 Hill radii
+  PooledList<R> factors_;
+  PooledList<R> within_;  // the sixth power of 3 Hill radii
   bool watches_ = false;
   std::optional<EncounterOfTwo> first_;
 };
