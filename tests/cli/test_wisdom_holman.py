@@ -157,7 +157,8 @@ class WisdomHolman(CommandCase):
                 self.assertEqual(float(row["energy/final"]), alone["energy"]["final"], row)
 
     def test_verify_measures_the_claims(self):
-        for method in METHODS:
+        # Those that `verify --all` measures. In other long correctors a step costs 30 times as much, and verify minutes.
+        for method in (*METHODS[:10], CORRECTED[0], CORRECTED[5]):
             done = self.hamflow("verify", method, "--json", status=None)
             (found,) = json.loads(done.stdout)["methods"]
             self.assertEqual(done.returncode, 0, found)

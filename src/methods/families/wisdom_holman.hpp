@@ -49,7 +49,7 @@ struct WisdomHolman {
         .rank = 1,
         .not_on_lattice = "its changes of coordinates are no bijections of the lattice",
         .representatives = {"wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)",
-                            "wisdom-holman(kernel=lazy)", "wisdom-holman(corrector=11)",
+                            "wisdom-holman(kernel=lazy)", "wisdom-holman(corrector=3)",
                             "wisdom-holman(corrector=17,kernel=lazy)"},
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read_options(options(), given)); },
         .needs = [](std::size_t) { return "bodies under gravity (n-body, solar-system)"; },
