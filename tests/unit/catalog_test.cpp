@@ -55,7 +55,11 @@ TEST(Catalog, ProblemsAreTheFilesOfTheFolders) {
                entry.info.name != SocketKeys::problem && entry.constraint_form.empty()) {  // texts, not files
       std::string name = entry.info.name;
       for (const auto& [key, value] : entry.info.variant) {
-        if (value != "generalised") name += "-" + value;  // beside Cartesian coordinates, which are texts
+        if (key == "planets") {
+          if (value == "all") name = "whole-" + name;
+        } else if (value != "generalised") {  // beside Cartesian coordinates, which are texts
+          name += "-" + value;
+        }
       }
       found.insert(name);
     }

@@ -20,7 +20,7 @@ struct Saba {
   static const BoundOptions<Powers>& options() {
     static const BoundOptions<Powers> all{
         bind_number(
-            {.name = "order",
+            {.name = "order_of_masses",
              .default_value = "1",
              .meaning = "n = 1, 2, 3, 4: the error of a step has a term of order 2 n that is proportional to the "
                         "masses of the planets, and one of order 2 proportional to their squares. 8 and 10: with "
