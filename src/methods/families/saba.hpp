@@ -71,7 +71,7 @@ struct Saba {
           if (index_of(name) < kepler_tables().size()) return {};
           const std::string allowed =
               joined(kepler_tables(), [](const KeplerTable& table) { return "saba(" + std::string(table.name) + ")"; });
-          return {"order", "found saba(" + name + "); allowed " + allowed};
+          return {"order_of_masses", "found saba(" + name + "); allowed " + allowed};
         },
         .hint = [](const Texts&, const UsableAdvice&) { return "try a smaller dt, or dop853 for a close encounter"; }};
   }
