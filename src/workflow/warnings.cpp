@@ -440,8 +440,8 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   }
   if (motion.turns != nullptr && !is_free_motion(scenario, end)) add_long_step(scenario, motion, all);
   if (end.step > 0) add_fast_springs(scenario, all);
-  if (end.step > 0) add_left_orbit(scenario, motion, all);
   if (all.empty() && end.step > 0) add_passing_particles(scenario, end, all);
+  if (all.empty() && end.step > 0) add_left_orbit(scenario, motion, all);
   if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
       has_fallen(scenario, motion.orbit->radial_period, end.time)) {
     // The apsidal angle is 0 only on a line. If the orbit falls although it has angular momentum, a little more of it
