@@ -26,8 +26,8 @@ template <class S>
 auto finer(const S& x) {
   return typename FinerOf<S>::type(x.template held<typename BoostOf<S>::type>());
 }
-/// The same, for an angle that is brought near 0 if it is so large that Boost's functions lose it. Angles up to 2^1024,
-/// the largest of a double, are brought there exactly enough.
+/// The same for an angle. Boost's functions are wrong for large angles, so these are reduced by whole turns first. 1224
+/// binary digits are enough for all angles up to 2^1024, the range of a double.
 template <class S>
 auto finer_angle(const S& x) {
   using Finer = typename FinerOf<S>::type;
@@ -92,26 +92,21 @@ HAMFLOW_OPERATOR(<)
 HAMFLOW_OPERATOR(<=)
 #undef HAMFLOW_OPERATOR
 
-#define HAMFLOW_FUNCTION(name)                                                                 \
+#define HAMFLOW_FUNCTION(name, argument)                                                       \
   HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x)->T { \
-    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(finer_angle(x)))); \
+    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(argument(x))));    \
   }
-HAMFLOW_FUNCTION(sin)
-HAMFLOW_FUNCTION(cos)
-HAMFLOW_FUNCTION(tan)
-#undef HAMFLOW_FUNCTION
-#define HAMFLOW_FUNCTION(name)                                                                 \
-  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x)->T { \
-    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(finer(x))));       \
-  }
-HAMFLOW_FUNCTION(exp)
-HAMFLOW_FUNCTION(log)
-HAMFLOW_FUNCTION(asin)
-HAMFLOW_FUNCTION(acos)
-HAMFLOW_FUNCTION(atan)
-HAMFLOW_FUNCTION(sinh)
-HAMFLOW_FUNCTION(cosh)
-HAMFLOW_FUNCTION(tanh)
+HAMFLOW_FUNCTION(exp, finer)
+HAMFLOW_FUNCTION(log, finer)
+HAMFLOW_FUNCTION(sin, finer_angle)
+HAMFLOW_FUNCTION(cos, finer_angle)
+HAMFLOW_FUNCTION(tan, finer_angle)
+HAMFLOW_FUNCTION(asin, finer)
+HAMFLOW_FUNCTION(acos, finer)
+HAMFLOW_FUNCTION(atan, finer)
+HAMFLOW_FUNCTION(sinh, finer)
+HAMFLOW_FUNCTION(cosh, finer)
+HAMFLOW_FUNCTION(tanh, finer)
 #undef HAMFLOW_FUNCTION
 HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::atan2(const T& y, const T& x) -> T {
   if (!(x == x && y == y)) return nan();

@@ -83,7 +83,7 @@ struct ParticleFacts {
 /// Why a start is refused.
 struct StartRefusal {
   std::string message{};                 // follows the word "found"; empty: the start is accepted
-  std::string key{};                     // of the wall or container that excludes the start; empty: it is none of them
+  std::string key{};                     // the key of the wall or container at fault; empty: another reason
   std::vector<std::size_t> particles{};  // the particles at fault, numbered from 1
 };
 
