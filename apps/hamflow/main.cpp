@@ -9,6 +9,7 @@
 #include "figure_kinds.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/workflow/rejection_json.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/scenario/coordinates.hpp"

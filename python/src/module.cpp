@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/core/option_names.hpp"
 
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "file_format.hpp"
+
 namespace hamflow {
 
 namespace {
@@ -64,6 +66,20 @@ void silence_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+namespace {
+
+/// @throws FileError if a later version of hamflow wrote the file in a format that this version cannot read
+void check_format(hid_t file, const std::filesystem::path& path) {
+  if (H5Aexists(file, "format") <= 0) return;
+  const StoredData format = StoredData::attribute(file, "format");
+  if (format.kind() != StoredData::Kind::texts) return;
+  if (const std::string wrong = refused_format(format.text()); !wrong.empty()) {
+    throw FileError(path.string() + " " + wrong);
+  }
+}
+
+}  // namespace
+
 Hdf5Handle open_to_read(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
@@ -71,12 +87,18 @@ Hdf5Handle open_to_read(const std::filesystem::path& path) {
   // If h5py has opened the file in this process, it can only be opened in the same way.
   const bool others_are_open = H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_FILE) > 0;
   if (file < 0 && others_are_open) file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  return {file, H5Fclose, "open " + path.string()};
+  Hdf5Handle opened(file, H5Fclose, "open " + path.string());
+  check_format(opened, path);
+  return opened;
 }
 
 Hdf5Handle open_foreign_to_read(const std::filesystem::path& path) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  return file < 0 ? open_to_read(path) : Hdf5Handle(file, H5Fclose, "open " + path.string());
+  if (file < 0) return open_to_read(path);
+  Hdf5Handle opened(file, H5Fclose, "open " + path.string());
+  // Another program may mean something else by an attribute of this name.
+  if (H5Aexists(opened, "hamflow") > 0) check_format(opened, path);
+  return opened;
 }
 
 bool has_object(hid_t file, const std::string& path) {

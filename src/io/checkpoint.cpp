@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "file_format.hpp"
 #include "hamflow/detail/core/hash.hpp"
 #include "hamflow/detail/core/option_names.hpp"
 #include "whole_file.hpp"
@@ -13,14 +14,13 @@ namespace {
 
 // The file consists of these two words, the payload, and a checksum of both.
 constexpr std::uint64_t magic = 0x4b43'574f'4c46'4d48u;  // "HMFLOWCK"; it also shows the byte order
-constexpr std::uint64_t format = 6;
 constexpr std::size_t sum_bytes = sizeof(std::uint64_t);
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   Writer ar;
-  ar(magic, format, checkpoint);
+  ar(magic, file_format_word, checkpoint);
   ar(fnv1a(ar.bytes()));
   WholeFile whole(file, next_name(file));
   write_whole(whole, ar.bytes());
@@ -48,9 +48,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
       throw damaged("was not written by hamflow, or on a machine with another byte order, or is damaged");
     }
     if (found_sum != fnv1a(content)) throw damaged("is damaged: its checksum is wrong");
-    if (found_format != format)
-      throw damaged("has format " + std::to_string(found_format) + "; this version of hamflow reads format " +
-                    std::to_string(format));
+    if (const std::string wrong = refused_format(found_format); !wrong.empty()) throw damaged(wrong);
     ar(checkpoint);
     ar.finish();
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "file_format.hpp"
 #include "hamflow/detail/core/hash.hpp"
 
 namespace hamflow {
@@ -49,6 +50,8 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
   for (const std::string& text : texts) all += text + std::string(longest - text.size(), '\0');
   write_values(object, name, text_type(longest), list_of(texts.size()), all.data());
 }
+
+void write_format(hid_t file) { write_attribute(file, "format", std::string(file_format)); }
 
 void write_text_dataset(hid_t file, const std::string& name, const std::string& text) {
   const Hdf5Handle type = text_type(text.size());

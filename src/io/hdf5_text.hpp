@@ -19,6 +19,9 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<do
 /// Writes an array of texts with the same length.
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 
+/// Writes the version of the format of hamflow's files as the attribute `format` of a file.
+void write_format(hid_t file);
+
 /// Writes a dataset that holds one text, with its hash in the attribute `fnv1a`, so that damage is found when it is
 /// read.
 void write_text_dataset(hid_t file, const std::string& name, const std::string& text);

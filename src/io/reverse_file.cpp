@@ -53,6 +53,7 @@ void write_reverse_file(const std::filesystem::path& file, const std::string& sc
   WholeFile whole(file, next_name(file));
   {
     Hdf5Handle h5 = create_hdf5(whole.part());
+    write_format(h5);
     write_text_dataset(h5, "scenario", scenario);
     write_state(h5, "start", start);
     write_state(h5, "turn", turn);

@@ -126,6 +126,7 @@ StoredTable stored_particles(hid_t file, const RunDescription& run, const Table&
 }
 
 void write_attributes(hid_t file, const RunDescription& run) {
+  write_format(file);
   if (!run.identity.empty()) write_attribute(file, "run", run.identity);
   write_attribute(file, "hamflow", run.version);
   write_attribute(file, "host", run.host);

@@ -55,7 +55,7 @@ class MemberReader {
   /// sweep, are parsed for each member: a million parsed values would take 300 MB.
   std::size_t value_of(std::size_t member, std::size_t key) {
     const Vary& vary = varied_.keys()[key];
-    const bool is_shared = vary.formula.empty() && vary.texts.size() < varied_.members();
+    const bool is_shared = vary.formula.empty() && vary.count() < varied_.members();
     const auto [at, is_new] = numbers_.try_emplace({key, is_shared ? varied_.place(member, key) : 0});
     if (is_new) {
       at->second = family_.add_value(varied_.text(member, key));

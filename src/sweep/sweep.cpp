@@ -20,22 +20,19 @@ namespace hamflow {
 
 void Sweep::restore(std::size_t member, MemberRow row) {
   steps_before_ += row.steps;
-  rows_[member] = std::move(row);
+  rows_[place(member)] = std::move(row);
 }
 
 std::size_t Sweep::members_left() const {
-  std::size_t left = 0;
-  for (std::size_t member = options_.shard.index; member < rows_.size(); member += options_.shard.count) {
-    if (!rows_[member].is_finished()) ++left;
-  }
-  return left;
+  return static_cast<std::size_t>(
+      std::count_if(rows_.begin(), rows_.end(), [](const MemberRow& row) { return !row.is_finished(); }));
 }
 
 void Sweep::put(std::size_t member, MemberRow row) {
   const bool is_finished = row.is_finished();
   {
     const std::lock_guard lock(rows_mutex_);
-    rows_[member] = std::move(row);
+    rows_[place(member)] = std::move(row);
   }
   if (!is_finished || !finished_) return;
   const std::lock_guard lock(finished_mutex_);
@@ -97,7 +94,7 @@ class Sweep::Worker {
     if (!block) block = make_ensemble_block(group.request, sweep_.options_.lanes);
     const std::span<const std::size_t> members(group.members.data() + task.first, task.count);
     std::vector<MemberStart> starts;
-    for (const std::size_t member : members) starts.push_back(sweep_.starts_[member]);
+    for (const std::size_t member : members) starts.push_back(sweep_.starts_[sweep_.place(member)]);
     const bool is_watched = group.observables.watch || group.has_section;
     if (!block->load(group.shape, starts)) {
       for (const std::size_t member : members) run_alone(member);
@@ -164,7 +161,7 @@ class Sweep::Worker {
     MemberRow& row = watched.row;
     row.status = taken == steps ? Outcome::done : Outcome::stopped;
     row.steps = taken;
-    row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[member].h;
+    row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[sweep_.place(member)].h;
     row.q = std::move(end.q);
     row.p = std::move(end.p);
     row.energy = energy_of(end.energy, sweep_.common());
@@ -276,7 +273,7 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::funct
   steps_taken_ = steps_before_;
   std::vector<Task> tasks;
   for (auto& [key, group] : groups_) {
-    std::erase_if(group.members, [this](std::size_t member) { return rows_[member].is_finished(); });
+    std::erase_if(group.members, [this](std::size_t member) { return row(member).is_finished(); });
     const std::size_t at_once = std::max<std::size_t>(group.lanes, 1);
     for (std::size_t i = 0; i < group.members.size(); i += at_once) {
       tasks.push_back({&group, i, std::min(at_once, group.members.size() - i)});

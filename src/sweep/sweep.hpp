@@ -121,9 +121,12 @@ class Sweep {
 
   /// Error messages, one line each, at most ten.
   const std::vector<Complaint>& complaints() const { return complaints_; }
-  std::size_t members() const { return rows_.size(); }
+  std::size_t members() const { return varied_.members(); }
   const Varied& varied() const { return varied_; }
-  const std::vector<MemberRow>& rows() const { return rows_; }
+  /// The row of a member. Members of other shards have the status not_run.
+  const MemberRow& row(std::size_t member) const { return is_own(member) ? rows_[place(member)] : not_run_; }
+  /// The rows of the members of this shard, in order.
+  const std::vector<MemberRow>& own_rows() const { return rows_; }
   /// The scenario of the first member that has a start; used for settings that all members share.
   const Scenario& common() const { return common_; }
   const std::string& text() const { return text_; }
@@ -147,8 +150,9 @@ class Sweep {
   /// Whether a member's method halves steps after a convergence failure.
   bool halves_steps() const { return halves_steps_; }
   /// Number of steps that a member has to take; 0 if it has no start.
-  std::int64_t steps_of(std::size_t member) const { return steps_[member]; }
-  /// Takes the row of a member that an earlier part of this sweep has finished. The member is not run again.
+  std::int64_t steps_of(std::size_t member) const { return is_own(member) ? steps_[place(member)] : 0; }
+  /// Takes the row of a member of this shard that an earlier part of this sweep has finished. The member is not run
+  /// again.
   void restore(std::size_t member, MemberRow row);
   /// Number of steps of the restored members.
   std::int64_t steps_before() const { return steps_before_; }
@@ -159,6 +163,8 @@ class Sweep {
   std::size_t own_members() const {
     return (members() + options_.shard.count - 1 - options_.shard.index) / options_.shard.count;
   }
+  /// The member of row `place` of own_rows().
+  std::size_t own_member(std::size_t place) const { return options_.shard.index + place * options_.shard.count; }
   /// Number of members of the shard that are not finished.
   std::size_t members_left() const;
 
@@ -188,6 +194,7 @@ class Sweep {
   class Pulse;
   class Worker;
 
+  std::size_t place(std::size_t member) const { return member / options_.shard.count; }
   std::size_t coordinates_of_first(MemberReader& reader) const;
   void read_members(const std::string& name);
   void add(std::size_t member, const Scenario& scenario);
@@ -216,9 +223,11 @@ class Sweep {
   std::optional<std::uint64_t> start_contents_;                               // hash of the start files of all members
   bool common_has_start_ = false;
   std::vector<Complaint> complaints_;
+  // Of the members of this shard, at place(member): a shard of many does not keep what belongs to the others.
   std::vector<MemberStart> starts_;  // starts of the members in lanes
   std::vector<MemberRow> rows_;
   std::vector<std::int64_t> steps_;
+  MemberRow not_run_;
   mutable std::mutex rows_mutex_;
   std::mutex finished_mutex_;
   std::function<void(std::size_t)> finished_;

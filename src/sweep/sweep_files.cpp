@@ -64,6 +64,7 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   WholeFile whole(file, next_name(file));
   Hdf5Handle id = create_hdf5_in_usual_format(whole.part());
   const Request& request = sweep.common().request;
+  write_format(id);
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
   write_attribute(id, "problem", request.problem);

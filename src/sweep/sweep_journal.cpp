@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "file_format.hpp"
 #include "hamflow/detail/core/hash.hpp"
 #include "hamflow/detail/core/option_names.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 // The file begins with these two words. Parts follow: the header, then the records. A part consists of its length, its
 // bytes, and a hash of both.
 constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP"; it also shows the byte order
-constexpr std::uint64_t format = 4;
 constexpr std::size_t word = sizeof(std::uint64_t);
 
 template <class... T>
@@ -63,10 +63,7 @@ StoredSweep journal_in(std::span<const std::byte> left, const std::string& name)
   Reader(left.first(sizeof found))(found);
   if (found[0] != magic)
     throw damaged("was not written by hamflow, or on a machine with another byte order, or is damaged");
-  if (found[1] != format) {
-    throw damaged("has format " + std::to_string(found[1]) + "; this version of hamflow reads format " +
-                  std::to_string(format));
-  }
+  if (const std::string wrong = refused_format(found[1]); !wrong.empty()) throw damaged(wrong);
   left = left.subspan(sizeof found);
   const auto head = next_part(left);
   if (head.empty()) throw damaged("is damaged: its header is incomplete");
@@ -93,7 +90,7 @@ StoredSweep journal_in(std::span<const std::byte> left, const std::string& name)
 
 std::vector<std::byte> journal_bytes(const StoredSweep& past) {
   Writer all;
-  all(magic, format);
+  all(magic, file_format_word);
   const auto add = [&all](const std::vector<std::byte>& part) { all.raw(part.data(), part.size()); };
   add(part_of(past.head));
   for (const auto& [member, finished] : past.members) add(part_of(member, finished));

@@ -28,16 +28,15 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   text_ = reader.family().text();
   complaints_ = reader.family().complaints();
   if (!complaints_.empty()) return;
-  const std::size_t members = varied_.members();
-  if (const std::string wrong = refused_members(members, coordinates_of_first(reader), available_memory());
+  if (const std::string wrong = refused_members(own_members(), coordinates_of_first(reader), available_memory());
       !wrong.empty()) {
     complaints_.push_back({"", 0, 0, option_name("vary"), wrong});
     return;
   }
-  rows_.resize(members);
+  rows_.resize(own_members());
   starts_.resize(rows_.size());
   steps_.resize(rows_.size());
-  names_ = SweepNames(rows_.size());
+  names_ = SweepNames(members());
   threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(processors());
   threads_ = std::max(threads_, 1);
   read_members(name);
@@ -55,15 +54,19 @@ std::size_t Sweep::coordinates_of_first(MemberReader& reader) const {
 void Sweep::read_members(const std::string& name) {
   std::atomic<std::size_t> next{0};
   constexpr std::size_t batch = 64;
+  // Member 0 shows the settings that all members share, so every shard reads it.
+  const std::size_t others = is_own(0) ? 0 : 1;
+  const std::size_t count = rows_.size() + others;
+  const auto member_at = [&](std::size_t k) { return k < others ? 0 : own_member(k - others); };
   const auto work = [&] {
     MemberReader reader(varied_, raw_text_, name, sets_);
-    for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
+    for (std::size_t begin = next.fetch_add(batch); begin < count; begin = next.fetch_add(batch)) {
       if (StopQuestion::stop_requested()) {  // only true on the caller's thread
-        next = rows_.size();
+        next = count;
         throw ReadingStopped();
       }
-      for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
-        if (member != 0 && !is_own(member)) continue;  // member 0 shows the settings that all members share
+      for (std::size_t k = begin; k < std::min(begin + batch, count); ++k) {
+        const std::size_t member = member_at(k);
         const Reading reading = reader.read(member);
         if (reading.scenario) {
           add(member, *reading.scenario);
@@ -75,7 +78,7 @@ void Sweep::read_members(const std::string& name) {
       }
     }
   };
-  (void)on_threads(rows_.size() > 4 * batch ? threads_ : 1, work);
+  (void)on_threads(count > 4 * batch ? threads_ : 1, work);
   refuse_different_kinds();
   if (!found_.empty()) {
     report(found_);
@@ -131,8 +134,9 @@ void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
   const std::lock_guard lock(mutex_);
   keep_shared_settings(member, *reading.scenario_without_start);
   names_.add(member, names, names.key());
-  rows_[member].no_start = true;
-  rows_[member].message = reading.no_start;
+  if (!is_own(member)) return;
+  rows_[place(member)].no_start = true;
+  rows_[place(member)].message = reading.no_start;
 }
 
 void Sweep::report(const std::map<Complaint, std::vector<std::size_t>>& found) {
@@ -141,7 +145,7 @@ void Sweep::report(const std::map<Complaint, std::vector<std::size_t>>& found) {
   for (const auto& [complaint, members] : found) {
     const std::size_t first = *std::min_element(members.begin(), members.end());
     all.emplace_back(first, complaint);
-    if (members.size() == rows_.size()) continue;
+    if (members.size() == this->members()) continue;
     all.back().second.message += " (" + varied_.described(first) +
                                  (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") + ")";
   }
@@ -243,12 +247,12 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     group.lanes = alone || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
   }
   group.members.push_back(member);
-  steps_[member] = scenario.steps;
+  steps_[place(member)] = scenario.steps;
   total_steps_ += scenario.steps;
   if (group.lanes > 0) {
     ++in_lanes_;
     lane_count_ = std::max(lane_count_, group.lanes);
-    starts_[member] = std::move(start);
+    starts_[place(member)] = std::move(start);
   }
 }
 

@@ -15,15 +15,21 @@ Column empty_column(std::string name, ValueType type, std::size_t width = 1, boo
   return Column({.name = std::move(name), .type = type, .width = width, .scalar = scalar});
 }
 
+/// Calls action(row) for every member.
+template <class F>
+void for_rows(const Sweep& sweep, const F& action) {
+  for (std::size_t member = 0; member < sweep.members(); ++member) action(sweep.row(member));
+}
+
 /// Makes a column with `width` numbers in each row. value(row) is a vector that may be empty.
 template <class F>
 Column vectors(const Sweep& sweep, std::string name, std::size_t width, bool scalar, const F& value) {
   Column column = empty_column(std::move(name), ValueType::number, width, scalar);
   column.reserve(sweep.members());
-  for (const MemberRow& row : sweep.rows()) {
+  for_rows(sweep, [&](const MemberRow& row) {
     const std::vector<double>& x = value(row);
     for (std::size_t i = 0; i < width; ++i) column.add(i < x.size() ? x[i] : nothing);
-  }
+  });
   return column;
 }
 
@@ -31,7 +37,7 @@ template <class F>
 Column numbers(const Sweep& sweep, std::string name, const F& value) {
   Column column = empty_column(std::move(name), ValueType::number);
   column.reserve(sweep.members());
-  for (const MemberRow& row : sweep.rows()) column.add(row.q.empty() ? nothing : value(row));
+  for_rows(sweep, [&](const MemberRow& row) { column.add(row.q.empty() ? nothing : value(row)); });
   return column;
 }
 
@@ -56,19 +62,19 @@ void add_invariants(const Sweep& sweep, Table& table) {
   for (const MergedName& invariant : sweep.names().invariants()) {
     const std::string group = "invariants/" + invariant.name + "/";
     const std::size_t size = sweep.names().size(invariant);
-    std::vector<const InvariantExcursion*> seen;
+    Column initial = empty_column(group + "initial", ValueType::number, size, size == 1);
+    Column final = empty_column(group + "final", ValueType::number, size, size == 1);
+    Column max_error = empty_column(group + "max_error", ValueType::number);
     for (std::size_t member = 0; member < sweep.members(); ++member) {
       const InvariantExcursion* const own = value_of(sweep, invariant, member, &MemberRow::invariants);
-      seen.push_back(own == nullptr ? &none : own);
+      const InvariantExcursion& x = own == nullptr ? none : *own;
+      for (std::size_t i = 0; i < size; ++i) {
+        initial.add(i < x.initial.size() ? x.initial[i] : nothing);
+        final.add(i < x.final.size() ? x.final[i] : nothing);
+      }
+      max_error.add(sweep.row(member).q.empty() ? nothing : x.max_error);
     }
-    const auto of = [&](const MemberRow& row) -> const InvariantExcursion& {
-      return *seen[static_cast<std::size_t>(&row - sweep.rows().data())];
-    };
-    table.add(vectors(sweep, group + "initial", size, size == 1,
-                      [&](const MemberRow& row) -> const std::vector<double>& { return of(row).initial; }));
-    table.add(vectors(sweep, group + "final", size, size == 1,
-                      [&](const MemberRow& row) -> const std::vector<double>& { return of(row).final; }));
-    table.add(numbers(sweep, group + "max_error", [&](const MemberRow& row) { return of(row).max_error; }));
+    for (Column* column : {&initial, &final, &max_error}) table.add(std::move(*column));
   }
 }
 
@@ -91,7 +97,7 @@ void add_stops(const Sweep& sweep, Table& table) {
   const std::size_t n = sweep.common().start_q.size();
   Column event = empty_column("stopped_by/event", ValueType::text);
   for (std::size_t member = 0; member < sweep.members(); ++member) {
-    const std::optional<MemberStop>& stop = sweep.rows()[member].stopped_by;
+    const std::optional<MemberStop>& stop = sweep.row(member).stopped_by;
     event.add(std::string_view(stop ? sweep.names().of(member).events.at(stop->event) : ""));
   }
   table.add(std::move(event));
@@ -110,7 +116,7 @@ void add_observables(const Sweep& sweep, Table& table) {
     Column column = empty_column("observables/" + observable.name, ValueType::number);
     for (std::size_t member = 0; member < sweep.members(); ++member) {
       const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
-      column.add(x == nullptr || sweep.rows()[member].q.empty() ? nothing : *x);
+      column.add(x == nullptr || sweep.row(member).q.empty() ? nothing : *x);
     }
     table.add(std::move(column));
   }
@@ -146,10 +152,10 @@ FrameDigits digits_of(const MemberRow& row) {
 void add_digits(const Sweep& sweep, std::size_t n, Table& table) {
   const auto add = [&](const char* name, std::size_t width, bool scalar, const auto& value) {
     Column column = empty_column(name, ValueType::text, width, scalar);
-    for (const MemberRow& row : sweep.rows()) {
+    for_rows(sweep, [&](const MemberRow& row) {
       const std::vector<std::string> texts = value(digits_of(row));
       for (std::size_t i = 0; i < width; ++i) column.add(std::string_view(i < texts.size() ? texts[i] : ""));
-    }
+    });
     table.add(std::move(column));
   };
   using List = std::vector<std::string>;
@@ -157,13 +163,13 @@ void add_digits(const Sweep& sweep, std::size_t n, Table& table) {
     static const MemberStop none;
     const auto stop = [&](const char* name, std::size_t width, bool scalar, const auto& value, const auto& digits) {
       Column column = empty_column(name, ValueType::text, width, scalar);
-      for (const MemberRow& row : sweep.rows()) {
+      for_rows(sweep, [&](const MemberRow& row) {
         const MemberStop& seen = row.stopped_by ? *row.stopped_by : none;
         List texts = digits(seen.digits);
         if (seen.digits.q.empty() && row.stopped_by) texts = all_shortest(value(seen));  // the member is in double
         texts.resize(width);
         for (const std::string& text : texts) column.add(text);
-      }
+      });
       table.add(std::move(column));
     };
     stop(
@@ -186,7 +192,7 @@ void add_digits(const Sweep& sweep, std::size_t n, Table& table) {
 }  // namespace
 
 std::vector<EventCount> events_of(const Sweep& sweep, std::size_t member) {
-  const MemberRow& row = sweep.rows()[member];
+  const MemberRow& row = sweep.row(member);
   std::vector<EventCount> all;
   for (const MergedName& wall : sweep.names().walls()) {
     EventCount& count = all.emplace_back(EventCount{wall.name});
@@ -207,10 +213,10 @@ Table members_of(const Sweep& sweep) {
   add_varied(sweep, table);
   Column status = empty_column("member/status", ValueType::text);
   Column steps = empty_column("member/steps", ValueType::integer);
-  for (const MemberRow& row : sweep.rows()) {
+  for_rows(sweep, [&](const MemberRow& row) {
     status.add(std::string_view(row.status_name()));
     steps.add(row.steps);
-  }
+  });
   table.add(std::move(status));
   table.add(std::move(steps));
   const std::size_t n = sweep.common().start_q.size();
@@ -248,7 +254,7 @@ Table sections_of(const Sweep& sweep) {
     }
   };
   for (std::size_t i = 0; i < sweep.members(); ++i) {
-    const MemberRow& row = sweep.rows()[i];
+    const MemberRow& row = sweep.row(i);
     add_points(row.section, t, q, p);
     for (std::size_t k = 0; k < row.section_points(); ++k) member.add(static_cast<std::int64_t>(i));
   }
@@ -258,10 +264,10 @@ Table sections_of(const Sweep& sweep) {
   Column t_digits = empty_column("digits/section/t", ValueType::text);
   Column q_digits = empty_column("digits/section/q", ValueType::text, n, false);
   Column p_digits = empty_column("digits/section/p", ValueType::text, n, false);
-  for (const MemberRow& row : sweep.rows()) {
+  for_rows(sweep, [&](const MemberRow& row) {
     add_points(row.section_digits.empty() ? all_shortest(row.section) : row.section_digits, t_digits, q_digits,
                p_digits);
-  }
+  });
   for (Column* column : {&t_digits, &q_digits, &p_digits}) table.add(std::move(*column));
   return table;
 }

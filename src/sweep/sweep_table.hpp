@@ -42,7 +42,7 @@ std::vector<EventCount> events_of(const Sweep& sweep, std::size_t member);
 template <class T>
 const T* value_of(const Sweep& sweep, const MergedName& name, std::size_t member, std::vector<T> MemberRow::*list) {
   const std::vector<std::size_t>& places = sweep.names().places(name, member);
-  const std::vector<T>& all = sweep.rows()[member].*list;
+  const std::vector<T>& all = sweep.row(member).*list;
   return places.empty() || places.front() >= all.size() ? nullptr : &all[places.front()];
 }
 

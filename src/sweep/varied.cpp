@@ -17,10 +17,10 @@ std::size_t combinations(const std::vector<Vary>& keys) {
   std::size_t count = 1;
   for (const Vary& key : keys) {
     if (!key.formula.empty()) continue;
-    if (key.texts.size() > most_members / count) {
+    if (key.count() > most_members / count) {
       throw Error("found more than 10000000 members; allowed fewer values for each key");
     }
-    count *= key.texts.size();
+    count *= key.count();
   }
   return count;
 }
@@ -30,11 +30,11 @@ std::size_t common_length(const std::vector<Vary>& keys) {
   for (const Vary& key : keys) {
     if (!key.formula.empty()) continue;
     if (first == nullptr) first = &key;
-    if (key.texts.size() == first->texts.size()) continue;
-    throw Error("found " + std::to_string(first->texts.size()) + " values of " + first->path + " and " +
-                std::to_string(key.texts.size()) + " of " + key.path + "; allowed lists of equal length");
+    if (key.count() == first->count()) continue;
+    throw Error("found " + std::to_string(first->count()) + " values of " + first->path + " and " +
+                std::to_string(key.count()) + " of " + key.path + "; allowed lists of equal length");
   }
-  return first == nullptr ? 1 : first->texts.size();
+  return first == nullptr ? 1 : first->count();
 }
 
 bool has_word(const std::string& text, const std::string& word) {
@@ -151,14 +151,14 @@ std::size_t Varied::place(std::size_t member, std::size_t key) const {
   if (!keys_[key].formula.empty()) return 0;
   if (in_step_) return member;
   for (std::size_t k = keys_.size(); k-- > key + 1;) {
-    if (keys_[k].formula.empty()) member /= keys_[k].texts.size();
+    if (keys_[k].formula.empty()) member /= keys_[k].count();
   }
-  return member % keys_[key].texts.size();
+  return member % keys_[key].count();
 }
 
 std::string Varied::text(std::size_t member, std::size_t key) const {
   const Vary& own = keys_[key];
-  if (own.formula.empty()) return own.texts[place(member, key)];
+  if (own.formula.empty()) return own.text(place(member, key));
   std::string all;
   if (const auto formula = formulas_.find(key); formula != formulas_.end()) {
     std::vector<std::string> values;
@@ -180,7 +180,7 @@ std::string Varied::text(std::size_t member, std::size_t key) const {
 
 double Varied::number(std::size_t member, std::size_t key) const {
   const Vary& own = keys_[key];
-  if (own.formula.empty()) return own.numbers[place(member, key)];
+  if (own.formula.empty()) return own.number(place(member, key));
   try {
     return evaluate_number<double>(text(member, key));
   } catch (const Error&) {

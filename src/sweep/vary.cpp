@@ -114,12 +114,26 @@ std::size_t count_of_range(const std::string& text) {
   return count && *count >= 1 && *count <= static_cast<double>(most_values) ? static_cast<std::size_t>(*count) : 1;
 }
 
+double ValueRange::number(std::size_t i) const {
+  if (i == 0) return first;
+  if (i + 1 == count) return last;
+  const auto k = static_cast<double>(i);
+  const auto intervals = static_cast<double>(count - 1);
+  const double step = (last - first) / intervals;
+  const bool is_whole = first == std::floor(first) && step == std::floor(step);
+  return is_whole ? first + step * k : first + (last - first) * (k / intervals);
+}
+
+std::string ValueRange::text(std::size_t i) const {
+  return i == 0 ? first_text : i + 1 == count ? last_text : shortest(number(i));
+}
+
 Vary parse_vary(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
     throw Error("found \"" + text + "\"; " + forms);
   }
-  Vary vary{trimmed(text.substr(0, equals)), {}, {}, false};
+  Vary vary{trimmed(text.substr(0, equals)), {}, {}};
   const std::string values = text.substr(equals + 1);
   const std::vector<std::string> range = split(values, ':');
   if (range.size() == 1) {
@@ -128,7 +142,6 @@ Vary parse_vary(const std::string& text) {
       vary.formula = trimmed(values);
       return vary;
     }
-    vary.is_list = true;
     for (const std::string& part : split(values, ',')) {
       vary.texts.push_back(trimmed(part));
       if (vary.texts.back().empty()) throw Error("found an empty value in \"" + text + "\"; " + forms);
@@ -150,19 +163,9 @@ Vary parse_vary(const std::string& text) {
   if (!(count >= 1) || count != std::floor(count) || count > static_cast<double>(most_values)) {
     throw Error("found n = " + trimmed(range[2]) + " in \"" + text + "\"; allowed a whole number from 1 to 10000000");
   }
-  const auto n = static_cast<std::size_t>(count);
-  const double step = n > 1 ? (b - a) / static_cast<double>(n - 1) : 0;
-  const bool is_whole = a == std::floor(a) && step == std::floor(step);
-  for (std::size_t i = 0; i < n; ++i) {
-    // Both ends are exact, and values of whole numbers stay whole, for keys that only accept whole numbers.
-    const auto k = static_cast<double>(i);
-    const double between = is_whole ? a + step * k : a + (b - a) * (n > 1 ? k / static_cast<double>(n - 1) : 0);
-    const double x = i + 1 == n && n > 1 ? b : between;
-    if (!std::isfinite(x)) throw Error("found a range too wide for double in \"" + text + "\"");
-    vary.numbers.push_back(x);
-    vary.texts.push_back(i == 0       ? exact_end(trimmed(range[0]), a)
-                         : i + 1 == n ? exact_end(trimmed(range[1]), b)
-                                      : shortest(x));
+  vary.range = {a, b, static_cast<std::size_t>(count), exact_end(trimmed(range[0]), a), exact_end(trimmed(range[1]), b)};
+  if (vary.range->count > 2 && !std::isfinite(vary.range->number(vary.range->count / 2))) {
+    throw Error("found a range too wide for double in \"" + text + "\"");
   }
   return vary;
 }

@@ -2,19 +2,39 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hamflow {
 
-struct Vary {
-  std::string path;                // dotted path such as problem.initial.q[0]
-  std::vector<std::string> texts;  // values as --set accepts them
-  std::vector<double> numbers;     // the same as numbers; empty if one of them is not a number
-  bool is_list = false;            // typed as PATH=v1,v2,...
-  std::string formula{};           // a formula of other varied keys, in place of values; empty: there is none
+/// Equidistant numbers, which are computed when they are asked for: a range of a million texts takes time and memory,
+/// and a shard needs few of them.
+struct ValueRange {
+  double first = 0;
+  double last = 0;
+  std::size_t count = 0;
+  std::string first_text;  // the ends as --set accepts them
+  std::string last_text;
 
-  bool is_number() const { return !numbers.empty() || !formula.empty(); }
+  /// Both ends are exact. Values of whole numbers stay whole, for keys that only accept whole numbers.
+  double number(std::size_t i) const;
+  std::string text(std::size_t i) const;
+};
+
+struct Vary {
+  std::string path;                   // dotted path such as problem.initial.q[0]
+  std::vector<std::string> texts;     // values of a list PATH=v1,v2,... as --set accepts them
+  std::vector<double> numbers;        // the same as numbers; empty if one of them is not a number
+  std::optional<ValueRange> range{};  // the values of PATH=a:b:n
+  std::string formula{};              // a formula of other varied keys, in place of values; empty: there is none
+
+  bool is_list() const { return !range && formula.empty(); }
+  bool is_number() const { return range || !numbers.empty() || !formula.empty(); }
+  /// Number of values; 0 for a formula.
+  std::size_t count() const { return range ? range->count : texts.size(); }
+  std::string text(std::size_t i) const { return range ? range->text(i) : texts[i]; }
+  double number(std::size_t i) const { return range ? range->number(i) : numbers[i]; }
 };
 
 /// A path of the scenario that a text contains, such as problem.initial.q[1], and its position.

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "hamflow/core/version.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "references.hpp"
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "file_format.hpp"
 #include "hamflow/scenario/value.hpp"
 #include "hamflow/verify/long_number.hpp"
 
@@ -198,5 +199,14 @@ class JsonReader {
 
   const Json& json_;
 };
+
+/// The first key of every summary: the version of the format of hamflow's files.
+/// @throws FileError if a later version of hamflow wrote a summary that this version cannot read
+template <class Ar>
+void format_of_file(Ar& ar) {
+  std::string format = file_format;
+  ar("format", format);
+  if (const std::string wrong = refused_format(format); !wrong.empty()) throw FileError("the summary " + wrong);
+}
 
 }  // namespace hamflow

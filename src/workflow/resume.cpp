@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "csv_file.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/core/hash.hpp"
 #include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/run/gas.hpp"

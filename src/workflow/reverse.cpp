@@ -237,6 +237,7 @@ void fields(Ar& ar, StateHashes& x) {
 
 template <class Ar>
 void fields(Ar& ar, ReversalSummary& x) {
+  format_of_file(ar);
   StateHashes hashes{x.start_hash, x.turn_hash, x.end_hash};
   ar("status", x.status, "problem", x.problem, "method", x.method, "arithmetic", x.arithmetic, "dt", x.dt, "steps",
      x.steps, "start", x.start, "returned", x.returned, "distance", x.distance, "relative_distance",

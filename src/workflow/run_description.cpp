@@ -7,6 +7,7 @@
 #include "element_columns.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/problems/solar_bodies.hpp"
 #include "hamflow/detail/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"

@@ -136,6 +136,7 @@ void fields(Ar& ar, SessionChange& x) {
 
 template <class Ar>
 void fields(Ar& ar, Summary& x) {
+  format_of_file(ar);
   ar("status", x.status, "problem", x.problem, "method", x.method, "arithmetic", x.arithmetic);
   ar.if_any("lattice", x.lattice);
   ar("parameters", x.parameters, "dt", x.dt, "steps", x.steps);

@@ -28,7 +28,7 @@ constexpr const char* usual_colour = "energy/max_error";
 
 bool draws_section(const Sweep& sweep, const std::string& colour) { return colour.empty() && sweep.common().section; }
 
-bool is_few(const Vary& vary) { return !vary.is_number() || (vary.is_list && vary.texts.size() <= few); }
+bool is_few(const Vary& vary) { return !vary.is_number() || (vary.is_list() && vary.count() <= few); }
 
 /// Keys over which a column is drawn: all keys except those given by formulas of others.
 struct FigureKeys {
@@ -49,7 +49,7 @@ FigureKeys figure_keys(const Varied& varied) {
   if (keys.free.size() < 2) return keys;
   const auto rank = [&](std::size_t key) {
     const Vary& vary = varied.keys()[key];
-    return !vary.is_number() ? 0 : is_few(vary) ? vary.texts.size() : std::numeric_limits<std::size_t>::max();
+    return !vary.is_number() ? 0 : is_few(vary) ? vary.count() : std::numeric_limits<std::size_t>::max();
   };
   const bool first = rank(keys.free[0]) <= rank(keys.free[1]);
   keys.lines = keys.free[first ? 0 : 1];
@@ -87,7 +87,7 @@ std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
 /// Returns the values of a key of words, as labels of an axis or a legend.
 std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
   std::vector<std::string> words;
-  for (const std::string& text : vary.texts) words.push_back(without_quotes(text));
+  for (std::size_t i = 0; i < vary.count(); ++i) words.push_back(without_quotes(vary.text(i)));
   words = figures::shortened(words, longest);
   for (std::string& word : words) word = figures::escaped(word);
   return words;
@@ -95,7 +95,7 @@ std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
 
 /// Returns the labels of an axis. Two labels fit horizontally and are shortened; more are printed vertically.
 std::vector<std::string> axis_words(const Vary& vary) {
-  return vary.texts.size() > 2 ? words_of(vary) : words_of(vary, 18);
+  return vary.count() > 2 ? words_of(vary) : words_of(vary, 18);
 }
 
 /// Returns the label of a list entry. Entries are counted from 0 in scenarios and from 1 in figures.
@@ -210,7 +210,7 @@ bool has_a_section(const MemberRow& row) { return !row.no_start && !is_failure(r
 std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&), std::size_t without_value = 0) {
   std::map<std::string, std::size_t> failed;
   std::size_t count = without_value;
-  for (const MemberRow& row : sweep.rows()) {
+  for (const MemberRow& row : sweep.own_rows()) {
     if (drawn(row)) continue;
     ++failed[row.status_name()];
     ++count;
@@ -220,7 +220,7 @@ std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&
   for (const auto& [status, members] : failed) parts.push_back(fmt::format("{} {}", members, status));
   if (without_value > 0) parts.push_back(fmt::format("{} without a finite value", without_value));
   return figures::escaped(
-      fmt::format("{}: {} of {} members ({})", map ? "white" : "not drawn", count, sweep.members(), joined(parts)));
+      fmt::format("{}: {} of {} members ({})", map ? "white" : "not drawn", count, sweep.own_members(), joined(parts)));
 }
 
 /// Returns the section points of all members that did not fail. Every member has its own colour while there are enough
@@ -231,7 +231,7 @@ Figure section_figure_of(const Sweep& sweep) {
   const StateNames& names = sweep.names().state();
   const std::size_t shown = coordinate_shown(*common.section, n);
   Figure figure;
-  for (const MemberRow& row : sweep.rows()) {
+  for (const MemberRow& row : sweep.own_rows()) {
     if (row.section.empty() || !has_a_section(row)) continue;
     FigureData data;
     data.title = title_of(sweep);
@@ -343,20 +343,20 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   figure.x_label = key_label(sweep, key.path);
   figure.value_label = names.size() == 1 ? "mean of " + value_label(sweep, names[0]) : "mean";
   if (!key.is_number()) figure.x_words = axis_words(key);
-  std::vector<std::size_t> done(key.texts.size());  // number of finished members for each value of the first key
+  std::vector<std::size_t> done(key.count());  // number of finished members for each value of the first key
   for (std::size_t member = 0; member < sweep.members(); ++member) {
-    if (sweep.rows()[member].status == Outcome::done) ++done[varied.place(member, over)];
+    if (sweep.row(member).status == Outcome::done) ++done[varied.place(member, over)];
   }
   std::size_t without_value = 0;
   for (const std::string& name : names) {
     const auto column = std::find_if(all.begin(), all.end(), [&](const DrawnColumn& one) { return one.name == name; });
-    std::vector<MeanOfMembers> means(key.texts.size());
+    std::vector<MeanOfMembers> means(key.count());
     std::vector<double> x(means.size());
     for (std::size_t member = 0; member < sweep.members(); ++member) {
       const std::size_t place = varied.place(member, over);
       x[place] = key.is_number() ? varied.number(member, over) : static_cast<double>(place);
       // The values of an unfinished member belong to an earlier time than those of the others.
-      if (sweep.rows()[member].status == Outcome::done) means[place].add(column->numbers[member]);
+      if (sweep.row(member).status == Outcome::done) means[place].add(column->numbers[member]);
     }
     for (std::size_t k = 0; k < means.size(); ++k) {
       const bool known = means[k].count > 0;
@@ -405,10 +405,10 @@ void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, c
     throw Rejection(option_name("figure"),
                     "found " + std::to_string(keys.free.size()) + " varied keys; allowed one or two");
   }
-  if (keys.has_lines && sweep.varied().keys()[keys.lines].texts.size() > most_map_lines) {
+  if (keys.has_lines && sweep.varied().keys()[keys.lines].count() > most_map_lines) {
     const Vary& lines = sweep.varied().keys()[keys.lines];
     throw Rejection(option_name("figure"),
-                    fmt::format("found {} values of {}, which need one line each; allowed up to {}", lines.texts.size(),
+                    fmt::format("found {} values of {}, which need one line each; allowed up to {}", lines.count(),
                                 lines.path, most_map_lines));
   }
   check_column(sweep, colour);
@@ -451,7 +451,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
       figure.line.push_back(line.is_number() ? key_label(sweep, line.path) + " = " + text : text);
     }
     // The values of an unfinished member belong to an earlier time than those of the others.
-    if (!is_done(sweep.rows()[member])) {
+    if (!is_done(sweep.row(member))) {
       figure.value[member] = std::numeric_limits<double>::quiet_NaN();
     } else if (!std::isfinite(figure.value[member])) {
       ++without_value;

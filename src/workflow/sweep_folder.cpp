@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/core/option_names.hpp"
 #include "resume.hpp"
 #include "run_description.hpp"
@@ -79,7 +80,7 @@ SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path fol
   note_progress();
   if (request.shard.count == 1) {  // the journal of the whole sweep is the union of all
     for (std::size_t member = 0; member < sweep_.members(); ++member) {
-      const MemberRow& row = sweep_.rows()[member];
+      const MemberRow& row = sweep_.row(member);
       if (row.is_finished())
         past.members.try_emplace(member, FinishedMember{sweep_.steps_of(member), seconds_before_, row});
     }
@@ -103,7 +104,7 @@ void SweepFolder::take_others(const SweepIdentity& head, const fs::path& whole) 
     }
     for (auto& [member, finished] : found.members) {
       if (member >= sweep_.members()) throw FileError(file.string() + " belongs to another sweep");
-      const bool is_new = sweep_.is_own(member) && !sweep_.rows()[member].is_finished();
+      const bool is_new = sweep_.is_own(member) && !sweep_.row(member).is_finished();
       if (!is_new || finished.steps != sweep_.steps_of(member)) continue;
       seconds_before_ = std::max(seconds_before_, finished.seconds);
       sweep_.restore(member, std::move(finished.row));
@@ -144,7 +145,7 @@ double SweepFolder::seconds() const {
 }
 
 void SweepFolder::keep(std::size_t member) {
-  journal_->append(member, {sweep_.steps_of(member), seconds(), sweep_.rows()[member]});
+  journal_->append(member, {sweep_.steps_of(member), seconds(), sweep_.row(member)});
   table_is_outdated_ = true;
 }
 

@@ -19,13 +19,13 @@ namespace {
 constexpr std::size_t most_failures = 10;
 
 std::size_t count(const Sweep& sweep, Outcome status) {
-  return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(), [&](const MemberRow& row) {
+  return static_cast<std::size_t>(std::ranges::count_if(sweep.own_rows(), [&](const MemberRow& row) {
     return row.status == status && !row.no_start;
   }));
 }
 std::size_t count_without_start(const Sweep& sweep) {
   return static_cast<std::size_t>(
-      std::count_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return row.no_start; }));
+      std::ranges::count_if(sweep.own_rows(), [](const MemberRow& row) { return row.no_start; }));
 }
 
 /// Returns the first members that failed. Members without a start come last, because there may be many of them.
@@ -33,7 +33,7 @@ std::vector<MemberFailure> failures_of(const Sweep& sweep) {
   std::vector<MemberFailure> all;
   for (const bool no_start : {false, true}) {
     for (std::size_t member = 0; member < sweep.members() && all.size() < most_failures; ++member) {
-      const MemberRow& row = sweep.rows()[member];
+      const MemberRow& row = sweep.row(member);
       if (row.message.empty() || row.no_start != no_start) continue;
       all.push_back({member, row.status_name(), row.no_start ? 0 : row.steps + 1, row.t, row.message});
     }
@@ -45,14 +45,14 @@ std::vector<MemberFailure> failures_of(const Sweep& sweep) {
 /// the centre.
 std::vector<Warning> sweep_warnings(const Sweep& sweep) {
   const auto is_meaningless = [](const MemberRow& row) { return row.nonsense; };
-  const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_meaningless);
-  const auto count = std::count_if(first, sweep.rows().end(), is_meaningless);
+  const auto first = std::ranges::find_if(sweep.own_rows(), is_meaningless);
+  const auto count = std::count_if(first, sweep.own_rows().end(), is_meaningless);
   if (count == 0) return {};
   return {
       {"energy_error",
        fmt::format("the energy error of {} of {} members is larger than the energy that the motion exchanges, first "
                    "in member {}; these results of {} are meaningless; try a smaller dt",
-                   count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}};
+                   count, sweep.own_members(), sweep.own_member(static_cast<std::size_t>(first - sweep.own_rows().begin())), sweep.common().request.problem)}};
 }
 
 Named<VariedKey> varied_of(const Sweep& sweep) {
@@ -61,9 +61,9 @@ Named<VariedKey> varied_of(const Sweep& sweep) {
   for (std::size_t key = 0; key < keys.size(); ++key) {
     const Vary& vary = keys[key];
     VariedKey& entry = varied.emplace_back(vary.path, VariedKey{}).second;
-    entry.count = vary.formula.empty() ? vary.texts.size() : sweep.members();
+    entry.count = vary.formula.empty() ? vary.count() : sweep.members();
     if (!vary.is_number()) {
-      for (const std::string& text : vary.texts) entry.values.push_back(without_quotes(text));
+      for (std::size_t i = 0; i < vary.count(); ++i) entry.values.push_back(without_quotes(vary.text(i)));
       continue;
     }
     entry.first = sweep.varied().number(0, key);
@@ -97,7 +97,7 @@ Named<Value> varied_of_member(const Sweep& sweep, std::size_t member) {
 
 Named<double> columns_of_member(const Sweep& sweep, std::size_t member) {
   Named<double> all;
-  if (sweep.rows()[member].observables.empty() && !sweep.names().of(member).observables.empty())
+  if (sweep.row(member).observables.empty() && !sweep.names().of(member).observables.empty())
     return all;  // the member is not finished
   for (const MergedName& name : sweep.names().observables()) {
     const double* const x = value_of(sweep, name, member, &MemberRow::observables);
@@ -121,7 +121,7 @@ std::vector<ObservableSummary> observables_of_member(const Sweep& sweep, const N
 }
 
 SweepRow sweep_row(const Sweep& sweep, std::size_t member) {
-  const MemberRow& row = sweep.rows()[member];
+  const MemberRow& row = sweep.row(member);
   SweepRow all{.varied = varied_of_member(sweep, member),
                .status = row.status_name(),
                .steps = row.steps,
@@ -152,7 +152,7 @@ SweepRow sweep_row(const Sweep& sweep, std::size_t member) {
 
 SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted, bool with_rows) {
   std::int64_t steps = 0;
-  for (const MemberRow& row : sweep.rows()) steps += row.steps;
+  for (const MemberRow& row : sweep.own_rows()) steps += row.steps;
   SweepSummary s;
   s.members = sweep.own_members();
   if (sweep.shard().count > 1) s.shard = fmt::format("{}/{}", sweep.shard().index, sweep.shard().count);
@@ -176,7 +176,7 @@ SweepSummary sweep_summary(const Sweep& sweep, double seconds, bool interrupted,
   s.warnings = sweep_warnings(sweep);
   if (sweep.common().section) {
     s.section_points = 0;
-    for (const MemberRow& row : sweep.rows()) *s.section_points += row.section_points();
+    for (const MemberRow& row : sweep.own_rows()) *s.section_points += row.section_points();
   }
   s.failures = failures_of(sweep);
   const std::size_t rows = with_rows && s.members <= SweepSummary::most_rows ? s.members : 0;
@@ -236,6 +236,7 @@ void fields(Ar& ar, SweepRow& x) {
 
 std::string sweep_json(const SweepSummary& x, bool with_rows) {
   JsonWriter ar;
+  format_of_file(ar);
   ar("status", x.status, "problem", x.problem, "arithmetic", x.arithmetic, "members", x.members, "done", x.done,
      "failed", x.failed, "unfinished", x.unfinished);
   ar.if_any("shard", x.shard);

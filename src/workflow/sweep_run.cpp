@@ -61,7 +61,7 @@ void add_passing_particles(const Sweep& sweep, const SweepRequest& request, std:
   std::size_t first = 0;
   std::string first_warning;
   for (std::size_t member = 0; member < sweep.members(); ++member) {
-    const MemberRow& row = sweep.rows()[member];
+    const MemberRow& row = sweep.row(member);
     if (row.status != Outcome::done || row.nonsense || row.steps == 0) continue;
     const Reading reading = reader.read(member);
     if (!reading.scenario) continue;
@@ -214,7 +214,7 @@ std::vector<std::byte> ScenarioSweep::finished_members() const {
   StoredSweep past{.head = head_of(sweep, impl_->request)};
   for (std::size_t member = impl_->request.shard.index; member < sweep.members();
        member += impl_->request.shard.count) {
-    const MemberRow& row = sweep.rows()[member];
+    const MemberRow& row = sweep.row(member);
     if (row.is_finished()) past.members.emplace(member, FinishedMember{sweep.steps_of(member), 0, row});
   }
   return journal_bytes(past);
@@ -235,7 +235,7 @@ void ScenarioSweep::take(std::span<const std::byte> finished_members) {
     if (member >= sweep.members() || finished.steps != sweep.steps_of(member)) {
       throw Error("found member " + std::to_string(member) + " of another sweep");
     }
-    if (sweep.rows()[member].is_finished()) continue;
+    if (sweep.row(member).is_finished()) continue;
     sweep.restore(member, std::move(finished.row));
     if (impl_->folder) impl_->folder->keep(member);
   }
@@ -278,7 +278,9 @@ std::vector<Complaint> ScenarioSweep::keep_in(const fs::path& folder, Existing e
 std::vector<std::string> ScenarioSweep::missing_shards() const {
   if (!impl_->folder) return {};
   std::vector<bool> is_finished;
-  for (const MemberRow& row : impl_->sweep->rows()) is_finished.push_back(row.is_finished());
+  for (std::size_t member = 0; member < impl_->sweep->members(); ++member) {
+    is_finished.push_back(impl_->sweep->row(member).is_finished());
+  }
   return hamflow::missing_shards(impl_->folder->path(), is_finished);
 }
 
