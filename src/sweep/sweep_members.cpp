@@ -145,7 +145,7 @@ void Sweep::report(const std::map<Complaint, std::vector<std::size_t>>& found) {
   for (const auto& [complaint, members] : found) {
     const std::size_t first = *std::min_element(members.begin(), members.end());
     all.emplace_back(first, complaint);
-    if (members.size() == this->members()) continue;
+    if (members.size() >= rows_.size()) continue;
     all.back().second.message += " (" + varied_.described(first) +
                                  (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") + ")";
   }
