@@ -6,11 +6,19 @@
 #include <cstdint>
 #include <string>
 
+#include "hamflow/core/error.hpp"
+
 namespace hamflow {
 
 inline constexpr const char* file_format = "1.0";
 /// The same in the second word of binary files: major << 16 | minor. Files from before 1.0 have a small number there.
 inline constexpr std::uint64_t file_format_word = 1 << 16;
+
+/// Another version of hamflow wrote a file, which is intact but cannot be read.
+class OtherFormat : public FileError {
+ public:
+  using FileError::FileError;
+};
 
 /// Returns what is wrong with a format, "has format 2.0; ...", or an empty text if this version can read it.
 std::string refused_format(const std::string& found);

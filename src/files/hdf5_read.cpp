@@ -68,13 +68,13 @@ void silence_hdf5() {
 
 namespace {
 
-/// @throws FileError if a later version of hamflow wrote the file in a format that this version cannot read
+/// @throws OtherFormat if a later version of hamflow wrote the file in a format that this version cannot read
 void check_format(hid_t file, const std::filesystem::path& path) {
   if (H5Aexists(file, "format") <= 0) return;
   const StoredData format = StoredData::attribute(file, "format");
   if (format.kind() != StoredData::Kind::texts) return;
   if (const std::string wrong = refused_format(format.text()); !wrong.empty()) {
-    throw FileError(path.string() + " " + wrong);
+    throw OtherFormat(path.string() + " " + wrong);
   }
 }
 

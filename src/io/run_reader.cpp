@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "file_format.hpp"
 #include "hamflow/detail/core/option_names.hpp"
 #include "hdf5_text.hpp"
 #include "run_file.hpp"
@@ -259,6 +260,8 @@ auto naming(const std::filesystem::path& path, const Read& read) {
   }
   try {
     return read(path);
+  } catch (const OtherFormat&) {
+    throw;
   } catch (const FileError& error) {
     throw FileError(path.string() + " is damaged or is not a run of hamflow: " + error.what());
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "file_format.hpp"
 #include "gas_start.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
@@ -120,6 +121,8 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
     }
     start.masses = masses_in(h5, place.numbers / space);
     return start;
+  } catch (const OtherFormat& error) {
+    throw Error(error.what());
   } catch (const FileError& error) {
     throw Error("found " + file.string() + ", which is damaged or not an HDF5 file (" + error.what() +
                 "); allowed a complete run.h5, or a CSV");

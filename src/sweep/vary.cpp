@@ -163,7 +163,8 @@ Vary parse_vary(const std::string& text) {
   if (!(count >= 1) || count != std::floor(count) || count > static_cast<double>(most_values)) {
     throw Error("found n = " + trimmed(range[2]) + " in \"" + text + "\"; allowed a whole number from 1 to 10000000");
   }
-  vary.range = {a, b, static_cast<std::size_t>(count), exact_end(trimmed(range[0]), a), exact_end(trimmed(range[1]), b)};
+  vary.range = {a, b, static_cast<std::size_t>(count), exact_end(trimmed(range[0]), a),
+                exact_end(trimmed(range[1]), b)};
   if (vary.range->count > 2 && !std::isfinite(vary.range->number(vary.range->count / 2))) {
     throw Error("found a range too wide for double in \"" + text + "\"");
   }

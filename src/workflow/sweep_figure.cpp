@@ -94,9 +94,7 @@ std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
 }
 
 /// Returns the labels of an axis. Two labels fit horizontally and are shortened; more are printed vertically.
-std::vector<std::string> axis_words(const Vary& vary) {
-  return vary.count() > 2 ? words_of(vary) : words_of(vary, 18);
-}
+std::vector<std::string> axis_words(const Vary& vary) { return vary.count() > 2 ? words_of(vary) : words_of(vary, 18); }
 
 /// Returns the label of a list entry. Entries are counted from 0 in scenarios and from 1 in figures.
 std::string entry_label(const std::string& key) {

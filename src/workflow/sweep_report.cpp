@@ -19,9 +19,8 @@ namespace {
 constexpr std::size_t most_failures = 10;
 
 std::size_t count(const Sweep& sweep, Outcome status) {
-  return static_cast<std::size_t>(std::ranges::count_if(sweep.own_rows(), [&](const MemberRow& row) {
-    return row.status == status && !row.no_start;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      sweep.own_rows(), [&](const MemberRow& row) { return row.status == status && !row.no_start; }));
 }
 std::size_t count_without_start(const Sweep& sweep) {
   return static_cast<std::size_t>(
@@ -48,11 +47,12 @@ std::vector<Warning> sweep_warnings(const Sweep& sweep) {
   const auto first = std::ranges::find_if(sweep.own_rows(), is_meaningless);
   const auto count = std::count_if(first, sweep.own_rows().end(), is_meaningless);
   if (count == 0) return {};
-  return {
-      {"energy_error",
-       fmt::format("the energy error of {} of {} members is larger than the energy that the motion exchanges, first "
-                   "in member {}; these results of {} are meaningless; try a smaller dt",
-                   count, sweep.own_members(), sweep.own_member(static_cast<std::size_t>(first - sweep.own_rows().begin())), sweep.common().request.problem)}};
+  return {{"energy_error",
+           fmt::format(
+               "the energy error of {} of {} members is larger than the energy that the motion exchanges, first "
+               "in member {}; these results of {} are meaningless; try a smaller dt",
+               count, sweep.own_members(), sweep.own_member(static_cast<std::size_t>(first - sweep.own_rows().begin())),
+               sweep.common().request.problem)}};
 }
 
 Named<VariedKey> varied_of(const Sweep& sweep) {
