@@ -16,6 +16,7 @@
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/core/option_info.hpp"
 #include "hamflow/detail/workflow/rejection_json.hpp"
 #include "hamflow/figures/stop_drawing.hpp"
@@ -37,7 +38,8 @@ struct Options {
   std::string out;  // the output directory; empty: reproduce
   bool force = false;
   bool resume = false;
-  int threads = 0;  // 0: all cores
+  std::string shard;  // "3/64" or "auto"; empty: all experiments
+  int threads = 0;    // 0: all cores
   bool json = false;
   bool quiet = false;
   bool list = false;
@@ -67,13 +69,21 @@ std::vector<std::string> ids_of(const std::vector<std::string>& words) {
   return named_experiments(words);
 }
 
+/// The experiments of the shard: the k-th belongs to shard k mod count.
+std::vector<std::string> part_of(const std::vector<std::string>& ids, const SweepShard& shard) {
+  std::vector<std::string> part;
+  for (std::size_t k = shard.index; k < ids.size(); k += shard.count) part.push_back(ids[k]);
+  return part;
+}
+
 ReproduceRequest request_of(const Options& options) {
+  const SweepShard shard = options.shard.empty() ? SweepShard() : shard_named(options.shard);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return {.ids = ids_of(options.what),
+  return {.ids = part_of(ids_of(options.what), shard),
           .extent = options.quick  ? WorkExtent::quick
                     : options.full ? WorkExtent::full
                                    : WorkExtent::usual,
-          .folder = folder_for(options),
+          .folder = shard_folder(shard, folder_for(options)),
           .existing = options.resume  ? Existing::resume
                       : options.force ? Existing::replace
                                       : Existing::refuse,
@@ -277,6 +287,11 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag(
       "--resume", options.resume,
       "run only the experiments that are not done or that have changed since: their runs, their rule or the version");
+  app.add_option("--shard", options.shard,
+                 "carry out only the experiments k with k mod COUNT = INDEX, in a folder of their own within --out; "
+                 "afterwards --resume without --shard takes what all shards have finished; auto: the numbers come from "
+                 "Slurm, Open MPI or PMI")
+      ->type_name("INDEX/COUNT");
   app.add_option("--threads", options.threads, "number of threads; 0 means all cores; verdicts do not depend on it")
       ->type_name("N")
       ->transform(CLI::Validator([](std::string& text) { return whole_number(text, most_sweep_threads); }, "", ""));

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "embedded.hpp"
+#include "hamflow/core/version.hpp"
 #include "reduce_svg.hpp"
 #include "report.hpp"
 #include "store.hpp"

@@ -13,6 +13,7 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/figures/stop_drawing.hpp"
+#include "hamflow/workflow/sweep.hpp"
 #include "report.hpp"
 #include "shared_work.hpp"
 #include "store.hpp"
@@ -42,7 +43,8 @@ WorkFolder prepared(const ReproduceRequest& request) {
   WorkFolder folder(request.folder, reproduction_folder(), request.existing);
   folder.prepare();
   std::error_code error;
-  if (!fs::is_empty(request.folder, error) && !is_there(folder / "reproduction")) {
+  const bool has_shards = request.existing == Existing::resume && !shard_folders(request.folder).empty();
+  if (!fs::is_empty(request.folder, error) && !is_there(folder / "reproduction") && !has_shards) {
     throw FileError("found in " + request.folder.string() +
                     " no reproduction; allowed the folder of one, or a new one");
   }
@@ -92,6 +94,30 @@ void move(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
   if (error) throw FileError("cannot move " + from.string() + " to " + to.string() + ": " + error.message());
+}
+
+/// Copies a finished experiment from the folder of a shard, in the largest size that any shard has.
+void take_from_shards(const fs::path& reproduction, const fs::path& folder, const Experiment& experiment) {
+  std::optional<WorkExtent> largest;
+  fs::path source;
+  for (const fs::path& shard : shard_folders(reproduction)) {
+    const fs::path found = folder_of(shard, experiment.info.id);
+    const auto done = done_in(found, experiment);
+    if (!done || (largest && done->extent <= *largest)) continue;
+    largest = done->extent;
+    source = found;
+  }
+  const auto own = done_in(folder, experiment);
+  if (!largest || (own && own->extent >= *largest)) return;
+  const fs::path copy = folder.string() + ".copy";  // so that a kill does not leave an incomplete folder in its place
+  clear(copy);
+  std::error_code error;
+  fs::create_directories(copy, error);
+  if (!error) fs::copy_file(source / mark_of_begin, copy / mark_of_begin, error);
+  if (!error) fs::copy(source, copy, fs::copy_options::recursive | fs::copy_options::skip_existing, error);
+  if (error) throw FileError("cannot copy " + source.string() + " to " + copy.string() + ": " + error.message());
+  clear(folder);
+  move(copy, folder);
 }
 
 std::string contents_of(const fs::path& file) {
@@ -171,6 +197,7 @@ class Run {
     const std::string print = fingerprint(experiment, request_.extent);
     bool keeps_smaller_result = false;
     if (request_.existing == Existing::resume) {
+      take_from_shards(request_.folder, folder, experiment);
       auto done = done_in(folder, experiment);
       // The program was killed before the larger size replaced the smaller one.
       if (!done && (!is_there(folder) || done_in(beside, experiment)) && is_there(beside)) {

@@ -12,6 +12,7 @@
 #include "figure_description.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/detail/core/hash.hpp"
 #include "hamflow/workflow/columns_file.hpp"
 

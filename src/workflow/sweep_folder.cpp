@@ -61,7 +61,7 @@ SweepIdentity head_of(const Sweep& sweep, const SweepRequest& request) {
 }
 
 SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path folder, Existing existing)
-    : sweep_(sweep), folder_(folder_of(request.shard, folder), sweep_folder(), existing) {
+    : sweep_(sweep), folder_(shard_folder(request.shard, folder), sweep_folder(), existing) {
   StoredSweep past;
   past.head = head_of(sweep, request);
   if (existing == Existing::replace && request.shard.count == 1 && !shard_journals(folder).empty()) {

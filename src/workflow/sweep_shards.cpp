@@ -92,22 +92,29 @@ SweepShard shard_named(const std::string& text) {
   return *shard;
 }
 
-fs::path folder_of(const SweepShard& shard, const fs::path& folder) {
+fs::path shard_folder(const SweepShard& shard, const fs::path& folder) {
   if (shard.count == 1) return folder;
   return folder / fmt::format("shard-{}-of-{}", shard.index, shard.count);
 }
 
-std::vector<fs::path> shard_journals(const fs::path& folder) {
+std::vector<fs::path> shard_folders(const fs::path& folder) {
   std::vector<std::pair<std::pair<std::size_t, std::size_t>, fs::path>> found;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    const auto shard = shard_of_folder(entry.path());
-    if (!shard || !fs::exists(entry.path() / members_file, none)) continue;
-    found.push_back({{shard->count, shard->index}, entry.path() / members_file});
+    if (const auto shard = shard_of_folder(entry.path())) found.push_back({{shard->count, shard->index}, entry.path()});
   }
   std::sort(found.begin(), found.end());
+  std::vector<fs::path> folders;
+  for (auto& [order, path] : found) folders.push_back(std::move(path));
+  return folders;
+}
+
+std::vector<fs::path> shard_journals(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (auto& [order, file] : found) files.push_back(std::move(file));
+  std::error_code none;
+  for (const fs::path& shard : shard_folders(folder)) {
+    if (fs::exists(shard / members_file, none)) files.push_back(shard / members_file);
+  }
   return files;
 }
 

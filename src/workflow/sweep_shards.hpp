@@ -13,8 +13,6 @@ namespace hamflow {
 
 inline constexpr const char* members_file = "members.bin";
 
-/// The folder of a shard: FOLDER/shard-3-of-64; the folder itself for the whole sweep.
-std::filesystem::path folder_of(const SweepShard& shard, const std::filesystem::path& folder);
 /// The journals of all shards in the folder of a sweep, ordered by count and index.
 std::vector<std::filesystem::path> shard_journals(const std::filesystem::path& folder);
 /// Names of the shards, "3/64", that have members which are not finished. Of shards with different counts those with

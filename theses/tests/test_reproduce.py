@@ -225,6 +225,25 @@ class Reproduce(MemoryCase):
             self.assertIn(f'<h3 id="{name}"', page)
         self.assertEqual(page.count("<img "), 2)
 
+    def test_shards_make_the_page_of_one_process(self):
+        ids = SOME[:5]
+        self.reproduce(*ids, "--quick", "--out", "whole")
+        for shard in ("1/2", "0/2"):
+            self.reproduce(*ids, "--quick", "--out", "parts", "--shard", shard)
+        parts = pathlib.Path(self.folder) / "parts"
+        self.assertFalse((parts / "index.html").exists())
+        self.assertEqual(sum(len(self.verdicts(f"parts/shard-{k}-of-2")["experiments"]) for k in (0, 1)), len(ids))
+        done = self.reproduce(*ids, "--quick", "--out", "parts", "--resume")
+        self.assertNotIn("error", done.stderr)
+        for name in ("verdicts.json", "index.html"):
+            self.assertEqual((parts / name).read_bytes(), (pathlib.Path(self.folder) / "whole" / name).read_bytes(), name)
+        # What no shard has finished is run.
+        shutil.rmtree(parts / "shard-0-of-2")
+        shutil.rmtree(parts / "reproduction")
+        self.reproduce(*ids, "--quick", "--out", "parts", "--resume")
+        self.assertEqual(self.verdicts("parts")["claims"], self.verdicts("whole")["claims"])
+        self.assertIn("found 2/2; allowed 0/2 to 1/2", self.reproduce("G2.8", "--shard", "2/2", status=2).stderr)
+
     def test_what_is_done_in_a_larger_size_stays(self):
         self.reproduce("S-C55", "G2.8")
         self.reproduce("S-C55", "G2.8", "G2.9", "--quick", "--resume")

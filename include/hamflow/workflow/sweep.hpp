@@ -45,6 +45,10 @@ struct SweepReport {
 /// "3/64" or "auto": the number of this process among all of a job, from the variables of Slurm, Open MPI or PMI.
 /// @throws Rejection
 SweepShard shard_named(const std::string& text);
+/// The folder of a shard, FOLDER/shard-3-of-64; the folder itself for the whole.
+std::filesystem::path shard_folder(const SweepShard& shard, const std::filesystem::path& folder);
+/// The folders of shards in a folder, ordered by count and index.
+std::vector<std::filesystem::path> shard_folders(const std::filesystem::path& folder);
 /// The request of the sweep that is stored in a folder, by a process or by shards. With ScenarioSweep::keep_in and
 /// Existing::resume it merges what all shards have finished.   @throws FileError
 SweepRequest stored_sweep(const std::filesystem::path& folder);
