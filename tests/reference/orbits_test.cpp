@@ -3,7 +3,11 @@
 // the largest component of double, or what a change of one input by one unit makes.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
 
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/quad.hpp"
@@ -112,6 +116,52 @@ TYPED_TEST(OrbitCases, ElementsOfStatesAreRight) {
       EXPECT_LE(static_cast<double>(difference), allowed[k] * factor * this->scale) << "element " << k;
     }
   });
+}
+
+/// Bodies of every kind in any order: short steps on ellipses and hyperbolas, long ones, steps that need two
+/// corrections, massless bodies, and one in free fall.
+TEST(KeplerDrifts, HaveTheBitsOfSingleDrifts) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::size_t many_of_a_group = 0;
+  for (int group = 0; group < 3000; ++group) {
+    const std::size_t count = 1 + random() % 9;
+    const double t = 0.3 * number(random);
+    std::vector<Vector<double, 3>> r(count), v(count), new_r(count), new_v(count);
+    std::vector<double> mu(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double size = group % 3 == 0 ? 1 + 4 * std::abs(number(random)) : std::pow(10, number(random));
+      for (std::size_t k = 0; k < 3; ++k) {
+        r[i][k] = size * number(random);
+        v[i][k] = number(random) / std::sqrt(size);
+      }
+      mu[i] = random() % 20 == 0 ? 0 : 1;
+      if (random() % 20 == 0) v[i] = {};
+    }
+    std::vector<int> added(count);
+    const Outcome outcome = kepler_drifts(
+        r, v, count, [](std::size_t k) { return k; }, [&](std::size_t i) -> const double& { return mu[i]; }, t,
+        [&](std::size_t i, const KeplerIncrements<double, 3>& by) {
+          ++added[i];
+          for (std::size_t k = 0; k < 3; ++k) {
+            new_r[i][k] = (r[i][k] + by.position[k]) + by.position_rest[k];
+            new_v[i][k] = (v[i][k] + by.velocity[k]) + by.velocity_rest[k];
+          }
+        });
+    Outcome expected = Outcome::done;
+    for (std::size_t i = 0; i < count && expected == Outcome::done; ++i) {
+      expected = advance_on_conic(r[i], v[i], mu[i], t);
+      ASSERT_EQ(added[i], expected == Outcome::done ? 1 : 0) << group << " " << i;
+      if (expected != Outcome::done) break;
+      for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(new_r[i][k]), std::bit_cast<std::uint64_t>(r[i][k])) << group;
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(new_v[i][k]), std::bit_cast<std::uint64_t>(v[i][k])) << group;
+      }
+    }
+    ASSERT_EQ(outcome, expected) << group;
+    if (count >= 4) ++many_of_a_group;
+  }
+  EXPECT_GT(many_of_a_group, 1000u);
 }
 
 }  // namespace

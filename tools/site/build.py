@@ -37,7 +37,7 @@ class Command:
         self.hash = hashlib.sha256(self.program.read_bytes()).hexdigest()[:16]
 
     def __call__(self, *words: str, folder: pathlib.Path = SITE, fails: bool = False) -> str | None:
-        done = subprocess.run([str(self.program), *words], cwd=folder, capture_output=True, text=True, timeout=600)
+        done = subprocess.run([str(self.program), *words], cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             if fails:
                 return None

@@ -26,6 +26,9 @@ FORMULA = {
               "p_1 = p_(1/2) - h/2 (dV/dq(q_1) + g'(q_1)^T mu),   g'(q_1) M^-1 p_1 = 0",
     "boris": "v <- v + h/2 F/m,   v <- rotated by the magnetic field over h,   v <- v + h/2 F/m,   x <- x + h v",
     "tao": "K(q, p, x, y) = H(q, y) + H(x, p) + omega (|q - x|^2 + |p - y|^2)/2,   each of the three parts solved exactly",
+    "wisdom-holman": "H = A + B:   A the Kepler motion of each planet, B the attractions between planets\n"
+                     "S_h = A_(h/2) . B_h . A_(h/2),   with a corrector C^-1 . S_h . C",
+    "saba": "H = A + B as for wisdom-holman\nS_h = A_(a_1 h) . B_(b_1 h) . A_(a_2 h) ... B_(b_s h) . A_(a_(s+1) h)",
     "dop853": "explicit Runge-Kutta of order 8 with 12 stages, errors by embedded formulas of order 5 and 3",
     "taylor": "z(t + h) = sum_k z_k h^k,   z_k by automatic differentiation of J dH",
 }
@@ -70,8 +73,18 @@ name = "rattle"
 dt = 0.1
 steps = 200
 """
+PLANETS = """[problem]
+name = "solar-system"
+[method]
+name = "wisdom-holman"
+[run]
+dt = 50
+steps = 1000
+"""
 # What a family is measured on, what is drawn beside it, and the words for it.
 MEASURED_ON = {"eg": (KEPLER, ["verlet", "stv4"], "an ellipse of Kepler's problem"),
                "rattle": (PENDULUM, ["rattle", "rattle4"], "a pendulum in Cartesian coordinates"),
+               "wisdom-holman": (PLANETS, ["verlet", "stv4", "wisdom-holman"], "the outer Solar System"),
+               "saba": (PLANETS, ["verlet", "stv4", "wisdom-holman"], "the outer Solar System"),
                "boris": (MAGNETIC, ["gauss", "cg"], "a charge in a uniform magnetic field")}
 USUAL = (HENON, ["verlet", "stv4", "kahan-li8"], "an orbit of Henon and Heiles")

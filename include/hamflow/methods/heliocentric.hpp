@@ -13,6 +13,7 @@
 
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/methods/bodies_in_space.hpp"
 #include "hamflow/detail/methods/close_encounter.hpp"
 #include "hamflow/orbits/kepler_drift.hpp"
 
@@ -20,13 +21,7 @@ namespace hamflow {
 
 /// Entry 0 is the centre of mass; the others are bodies, r from the first body and v from the centre of mass.
 template <class R>
-struct HeliocentricState {
-  using Space = Vector<R, 3>;
-  PooledList<Space> r;
-  PooledList<Space> v;
-  PooledList<Space> added_r;
-  PooledList<Space> added_v;
-};
+using HeliocentricState = BodiesInSpace<R>;
 
 template <class R>
 class HeliocentricSplitting {
@@ -113,18 +108,10 @@ class HeliocentricSplitting {
   Outcome drift(HeliocentricState<R>& state, const R& h) const {
     for (std::size_t k = 0; k < 3; ++k) add(state.r[0][k], state.added_r[0][k], h * state.v[0][k]);
     const R attraction = constant_ * masses_[0];
-    for (std::size_t i = 1; i < masses_.size(); ++i) {
-      KeplerIncrements<R, 3> by;
-      const Outcome outcome = kepler_drift(state.r[i], state.v[i], attraction, h, by);
-      if (outcome != Outcome::done) return outcome;
-      for (std::size_t k = 0; k < 3; ++k) {
-        add(state.r[i][k], state.added_r[i][k], by.position[k]);
-        add(state.r[i][k], state.added_r[i][k], by.position_rest[k]);
-        add(state.v[i][k], state.added_v[i][k], by.velocity[k]);
-        add(state.v[i][k], state.added_v[i][k], by.velocity_rest[k]);
-      }
-    }
-    return Outcome::done;
+    return kepler_drifts(
+        state.r, state.v, masses_.size() - 1, [](std::size_t k) { return k + 1; },
+        [&attraction](std::size_t) -> const R& { return attraction; }, h,
+        [&state](std::size_t i, const KeplerIncrements<R, 3>& by) { state.add(i, by); });
   }
 
   void jump(HeliocentricState<R>& state, const R& h) const {

@@ -21,6 +21,7 @@
 
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/methods/bodies_in_space.hpp"
 #include "hamflow/detail/methods/close_encounter.hpp"
 #include "hamflow/orbits/kepler_drift.hpp"
 
@@ -59,16 +60,9 @@ std::vector<R> corrector_weights(std::size_t stages) {
   return w;
 }
 
-/// Positions and velocities in Jacobi coordinates, and what has been added to them since they were made. The first
-/// entry is the centre of mass.
+/// Bodies in Jacobi coordinates. The first entry is the centre of mass.
 template <class R>
-struct JacobiState {
-  using Space = Vector<R, 3>;
-  PooledList<Space> r;
-  PooledList<Space> v;
-  PooledList<Space> added_r;
-  PooledList<Space> added_v;
-};
+using JacobiState = BodiesInSpace<R>;
 
 /// Bodies of given masses in Jacobi coordinates, and the two parts of their motion.
 template <class R>
@@ -167,19 +161,10 @@ class JacobiSplitting {
   Outcome drift(JacobiState<R>& state, const R& h) const {
     const std::size_t first = massive_[0];
     for (std::size_t k = 0; k < 3; ++k) add(state.r[first][k], state.added_r[first][k], h * state.v[first][k]);
-    for (std::size_t i = 0; i < masses_.size(); ++i) {
-      if (i == first) continue;
-      KeplerIncrements<R, 3> by;
-      const Outcome outcome = kepler_drift(state.r[i], state.v[i], attraction_[i], h, by);
-      if (outcome != Outcome::done) return outcome;
-      for (std::size_t k = 0; k < 3; ++k) {
-        add(state.r[i][k], state.added_r[i][k], by.position[k]);
-        add(state.r[i][k], state.added_r[i][k], by.position_rest[k]);
-        add(state.v[i][k], state.added_v[i][k], by.velocity[k]);
-        add(state.v[i][k], state.added_v[i][k], by.velocity_rest[k]);
-      }
-    }
-    return Outcome::done;
+    return kepler_drifts(
+        state.r, state.v, masses_.size() - 1, [first](std::size_t k) { return k < first ? k : k + 1; },
+        [this](std::size_t i) -> const R& { return attraction_[i]; }, h,
+        [&state](std::size_t i, const KeplerIncrements<R, 3>& by) { state.add(i, by); });
   }
 
   /// B over a time h.

@@ -126,11 +126,11 @@ bool careful_drift(const Vector<R, N>& r, Vector<R, N> v, const R& mu, R t, Kepl
 
 /// sum_n coefficient[n] x^n of 8 terms, by pairs, so that fewer operations wait for each other.
 template <class V>
-V sum_of_eight(const double (&c)[8], V x) {
+[[gnu::always_inline]] inline void sum_of_eight(const double (&c)[8], const V& x, V& sum) {
   const V x2 = x * x;
   const V low = (c[0] + c[1] * x) + (c[2] + c[3] * x) * x2;
   const V high = (c[4] + c[5] * x) + (c[6] + c[7] * x) * x2;
-  return low + high * (x2 * x2);
+  sum = low + high * (x2 * x2);
 }
 
 /// A step is short if mu s^2/r0, beta s^2, eta s/r0 and the square of (mu s/r0)/v are below this number: less than a
@@ -161,7 +161,8 @@ struct ShortKeplerStep {
   V r;
   V correction;  // the last correction, relative to s
 
-  ShortKeplerStep(V r0_, V eta_, V square_of_v, V mu_, V t_) : r0(r0_), eta(eta_), mu(mu_), t(t_) {
+  [[gnu::always_inline]] ShortKeplerStep(const V& r0_, const V& eta_, const V& square_of_v, const V& mu_, const V& t_)
+      : r0(r0_), eta(eta_), mu(mu_), t(t_) {
     inverse_r0 = 1 / r0;
     beta = 2 * mu * inverse_r0 - square_of_v;
     zeta = mu - beta * r0;
@@ -174,11 +175,14 @@ struct ShortKeplerStep {
 
   /// Takes a step of Newton's method with second and third derivatives, then evaluates the functions at the new s by
   /// their Taylor series. Both have an error of (correction of s)^4.   [Danby1988, ch. 6]
-  void correct() {
+  [[gnu::always_inline]] void correct() {
     const V square = s * s;
     const V x = beta * square;
-    g2 = square * sum_of_eight(c2_series, x);
-    g3 = s * square * sum_of_eight(c3_series, x);
+    V c2, c3;
+    sum_of_eight(c2_series, x, c2);
+    sum_of_eight(c3_series, x, c3);
+    g2 = square * c2;
+    g3 = s * square * c3;
     g1 = s - beta * g3;
     const V g0 = 1 - beta * g2;
     r = r0 + (eta * g1 + zeta * g2);
@@ -199,34 +203,98 @@ struct ShortKeplerStep {
   }
 };
 
-/// Returns false if the step is not short, or if a number is NaN.
-template <std::size_t N>
-bool short_drift(const Vector<double, N>& r, const Vector<double, N>& v, double mu, double t,
-                 KeplerIncrements<double, N>& out) {
-  const double square_of_v = inner_product(v, v);
-  ShortKeplerStep<double> step(sqrt(inner_product(r, r)), inner_product(r, v), square_of_v, mu, t);
-  const double square = step.s * step.s;
-  const double limit_of_distance = short_step * step.r0;
-  if (!(0 < mu && mu * square < limit_of_distance && abs(step.eta * step.s) < limit_of_distance &&
-        abs(step.beta * square) < short_step && mu * mu * square < limit_of_distance * step.r0 * square_of_v)) {
-    return false;
+/// The numbers of a body before a step, of which vectors have one in each lane.
+struct ShortStepStart {
+  double r0;
+  double eta;
+  double square_of_v;
+  double mu;
+
+  template <std::size_t N>
+  static ShortStepStart of(const Vector<double, N>& r, const Vector<double, N>& v, double mu) {
+    return {sqrt(inner_product(r, r)), inner_product(r, v), inner_product(v, v), mu};
   }
-  const auto has_converged = [&] {  // the fourth power is below a rounding
-    step.correct();
-    return abs(step.correction) < 1e-4;
-  };
-  if (!has_converged() && !has_converged()) return false;
-  const double by_mass = mu * step.g2;
-  const double inverse_r = 1 / step.r;
-  const double f_less_1 = -by_mass * step.inverse_r0;
-  const double g = t - mu * step.g3;
-  const double f_rate = -mu * step.g1 * step.inverse_r0 * inverse_r;
-  const double g_rate_less_1 = -by_mass * inverse_r;
+  /// Whether the step is short. False if a number is NaN.
+  bool is_short(double s, double beta) const {
+    const double square = s * s;
+    const double limit_of_distance = short_step * r0;
+    return 0 < mu && mu * square < limit_of_distance && abs(eta * s) < limit_of_distance &&
+           abs(beta * square) < short_step && mu * mu * square < limit_of_distance * r0 * square_of_v;
+  }
+};
+
+/// Whether the fourth power of the last correction is below a rounding.
+inline bool is_small_correction(double relative) { return abs(relative) < 1e-4; }
+
+template <std::size_t N>
+void set_increments(const Vector<double, N>& r, const Vector<double, N>& v, double f_less_1, double g, double f_rate,
+                    double g_rate_less_1, KeplerIncrements<double, N>& out) {
   for (std::size_t i = 0; i < N; ++i) {
     out.position[i] = f_less_1 * r[i] + g * v[i];
     out.velocity[i] = f_rate * r[i] + g_rate_less_1 * v[i];
     out.position_rest[i] = 0;
     out.velocity_rest[i] = 0;
+  }
+}
+
+/// Returns false if the step is not short, or if a number is NaN.
+template <std::size_t N>
+bool short_drift(const Vector<double, N>& r, const Vector<double, N>& v, double mu, double t,
+                 KeplerIncrements<double, N>& out) {
+  const auto start = ShortStepStart::of(r, v, mu);
+  ShortKeplerStep<double> step(start.r0, start.eta, start.square_of_v, mu, t);
+  if (!start.is_short(step.s, step.beta)) return false;
+  const auto has_converged = [&] {
+    step.correct();
+    return is_small_correction(step.correction);
+  };
+  if (!has_converged() && !has_converged()) return false;
+  const double by_mass = mu * step.g2;
+  const double inverse_r = 1 / step.r;
+  set_increments(r, v, -by_mass * step.inverse_r0, t - mu * step.g3, -mu * step.g1 * step.inverse_r0 * inverse_r,
+                 -by_mass * inverse_r, out);
+  return true;
+}
+
+/// L doubles that are computed side by side. The compiler divides them into what the processor has. They are never
+/// passed by value, since how that is done depends on the processor.
+template <std::size_t L>
+struct Lanes {
+  using Type [[gnu::vector_size(8 * L)]] = double;
+};
+
+/// Short drifts of L bodies side by side. All results have the bits of short_drift(). Returns false, and nothing is
+/// known of `out`, if a step is not short, or needs a second correction.
+/// @param r, v, attraction called with the lane
+template <std::size_t L, class Position, class Velocity, class Attraction, std::size_t N>
+[[gnu::always_inline]] inline bool short_drifts(const Position& r, const Velocity& v, const Attraction& attraction,
+                                                double t, KeplerIncrements<double, N>* out) {
+  using V = typename Lanes<L>::Type;
+  V r0, eta, square_of_v, mu;
+  for (std::size_t l = 0; l < L; ++l) {
+    const auto start = ShortStepStart::of(r(l), v(l), attraction(l));
+    r0[l] = start.r0;
+    eta[l] = start.eta;
+    square_of_v[l] = start.square_of_v;
+    mu[l] = start.mu;
+  }
+  ShortKeplerStep<V> step(r0, eta, square_of_v, mu, V{} + t);
+  bool goes_on = true;
+  for (std::size_t l = 0; l < L; ++l) {
+    goes_on = goes_on && ShortStepStart{r0[l], eta[l], square_of_v[l], mu[l]}.is_short(step.s[l], step.beta[l]);
+  }
+  if (!goes_on) return false;
+  step.correct();
+  for (std::size_t l = 0; l < L; ++l) goes_on = goes_on && is_small_correction(step.correction[l]);
+  if (!goes_on) return false;
+  const V by_mass = mu * step.g2;
+  const V inverse_r = 1 / step.r;
+  const V f_less_1 = -by_mass * step.inverse_r0;
+  const V g = step.t - mu * step.g3;
+  const V f_rate = -mu * step.g1 * step.inverse_r0 * inverse_r;
+  const V g_rate_less_1 = -by_mass * inverse_r;
+  for (std::size_t l = 0; l < L; ++l) {
+    set_increments(r(l), v(l), f_less_1[l], g[l], f_rate[l], g_rate_less_1[l], out[l]);
   }
   return true;
 }
@@ -255,6 +323,45 @@ Outcome kepler_drift(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu, 
     out.velocity_rest[i] = R(found.velocity[i] - Careful(out.velocity[i]));
     const R size = abs(out.position[i]) + abs(out.velocity[i]);
     if (!(size <= std::numeric_limits<R>::max())) return Outcome::not_converged;
+  }
+  return Outcome::done;
+}
+
+/// Drifts of several bodies: calls add(i, increments) for each body i = body(0), ..., body(count - 1). The increments
+/// are those of kepler_drift() to the last bit; in double, short drifts are computed four or two at a time.
+/// @param attraction attraction(i) is mu of body i
+/// @returns not_converged at the first body without such a state; those before it have been added
+template <class R, class Spaces, class Body, class Attraction, class Add>
+Outcome kepler_drifts(const Spaces& r, const Spaces& v, std::size_t count, const Body& body,
+                      const Attraction& attraction, const R& t, const Add& add) {
+  constexpr std::size_t most = 4;
+  KeplerIncrements<R, 3> by[most];
+  const auto add_short = [&]<std::size_t L>(std::integral_constant<std::size_t, L>, std::size_t k) {
+    if (!detail::short_drifts<L>(
+            [&](std::size_t l) -> const auto& { return r[body(k + l)]; },
+            [&](std::size_t l) -> const auto& { return v[body(k + l)]; },
+            [&](std::size_t l) { return attraction(body(k + l)); }, t, by)) {
+      return false;
+    }
+    for (std::size_t l = 0; l < L; ++l) add(body(k + l), by[l]);
+    return true;
+  };
+  for (std::size_t k = 0; k < count;) {
+    if constexpr (std::is_same_v<R, double>) {
+      if (k + 4 <= count && add_short(std::integral_constant<std::size_t, 4>(), k)) {
+        k += 4;
+        continue;
+      }
+      if (k + 2 <= count && add_short(std::integral_constant<std::size_t, 2>(), k)) {
+        k += 2;
+        continue;
+      }
+    }
+    const std::size_t i = body(k);
+    const Outcome outcome = kepler_drift(r[i], v[i], attraction(i), t, by[0]);
+    if (outcome != Outcome::done) return outcome;
+    add(i, by[0]);
+    ++k;
   }
   return Outcome::done;
 }
