@@ -17,6 +17,7 @@
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
+#include "toml_path.hpp"
 
 namespace hamflow {
 
