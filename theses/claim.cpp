@@ -94,7 +94,7 @@ Judgement judge(const Rule& rule, std::span<const Measured> measured, Grounds gr
       case Place::unclear:
         return {ClaimVerdict::undecided,
                 told(one) + (std::isfinite(one.uncertainty) ? " may lie on either side of the rule"
-                                                            : ", from which nothing follows")};
+                                                            : "; the uncertainty is unbounded, so nothing follows")};
     }
   }
   std::string numbers;
@@ -104,7 +104,7 @@ Judgement judge(const Rule& rule, std::span<const Measured> measured, Grounds gr
   if (grounds == Grounds::identity)
     return {ClaimVerdict::cannot_hold, numbers + ", where the rule asks for an identity"};
   if (grounds == Grounds::ways && measured.size() >= 2) {
-    return {ClaimVerdict::cannot_hold, numbers + ": beyond the rule in independent ways"};
+    return {ClaimVerdict::cannot_hold, numbers + ", beyond the rule in independent measurements"};
   }
   return {ClaimVerdict::differs, numbers + ", beyond the rule"};
 }

@@ -104,28 +104,30 @@ void claim_regular(Study& study, const LateMotion& late) {
                                       of.shorter, time / 4, of.longer, time)});
     }
   }
-  study.claim({fmt::format("regular_{}", late.name),
-               fmt::format("a late motion of {} is regular, with the rule of the listing", late.name), "regular"},
-              at_most(3,
-                      "largest Lyapunov exponent over log T/T: 1 where tangents grow like t; a chaotic motion's is "
-                      "beyond 30"),
-              measured, Grounds::program,
-              fmt::format("{:g} time units, some rounds: the default size", least_time_for_exponents));
+  study.claim(
+      {fmt::format("regular_{}", late.name),
+       fmt::format("a late motion of {} is regular, with the rule of the listing", late.name), "regular"},
+      at_most(3,
+              "largest Lyapunov exponent divided by log T/T: 1 if tangent vectors grow like t; above 30 for a chaotic "
+              "motion"),
+      measured, Grounds::program,
+      fmt::format("{:g} time units, a few rounds: the default size", least_time_for_exponents));
 }
 
 }  // namespace
 
 void claim_late_motions(Study& study) {
   const double time = 0.01 * static_cast<double>(steps_in_true_flow(study));
-  TextTable table{"neighbourhood",
-                  "Motions beside a late one, Q1 moved: with the rule of the listing, and with located bounces (stv4)",
-                  {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
-                   fmt::format("over {:g}", 4 * time), "by at most 3 log T/T"},
-                  {}};
+  TextTable table{
+      "neighbourhood",
+      "Neighbours of a late motion, with Q1 moved: with the rule of the listing, and with located bounces (stv4)",
+      {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
+       fmt::format("over {:g}", 4 * time), "regular (at most 3 log T/T)"},
+      {}};
   TextTable partings{
       "partings",
-      "How many times as far apart neighbours of a late motion are in the later half of a run as at first, "
-      "reject: of a chaotic one they end as far apart as they can be",
+      "Distance of neighbours of a late motion in the second half of a run, divided by their distance at the start; "
+      "rule reject. Neighbours of a chaotic motion end as far apart as the domain allows",
       {"late motion of"},
       {}};
   const std::vector<double> shifts{1e-11, -1e-11, 1e-9, -1e-9, 1e-7, -1e-7, 1e-5, 1e-3};
@@ -135,8 +137,8 @@ void claim_late_motions(Study& study) {
     study.claim({fmt::format("true_flow_{}", late.name),
                  fmt::format("a late motion of {} is a regular orbit of the true flow", late.name), "an island"},
                 at_most(1e6,
-                        "how many times as far apart neighbours come that were 1e-9 apart: a chaotic motion has "
-                        "parted them 3e8 times and more"),
+                        "growth of the distance of neighbours that start 1e-9 apart; in a chaotic motion it grows "
+                        "3e8 times and more"),
                 {measured_separation(study, "element", {.rule = "event", .method = "cg(3)"}, late,
                                      "continued with cg(3) and event, dt = 0.01"),
                  measured_separation(study, "event", {.rule = "event"}, late, "with stv4 and event")},

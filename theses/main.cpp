@@ -238,7 +238,7 @@ void reject_missing_value(const CLI::App& app, int argc, char** argv) {
     const bool swallows = next.starts_with("-") && app.get_option_no_throw(next) != nullptr;
     if (option == nullptr || argv[i][0] != '-' || option->get_items_expected_max() == 0 || !(next.empty() || swallows))
       continue;
-    throw Rejection(argv[i], "found " + (next.empty() ? std::string("nothing") : "the option " + next) + "; allowed " +
+    throw Rejection(argv[i], "found " + (next.empty() ? std::string("no value") : "the option " + next) + "; allowed " +
                                  argv[i] + " " + option->get_type_name());
   }
 }
@@ -292,7 +292,7 @@ void declare(CLI::App& app, Options& options) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // then a write beyond the limit of file sizes fails like a write to a full disk
-  CLI::App app{"Carry out the experiments of both theses: figures, tables, statements, and verdicts"};
+  CLI::App app{"Repeat the experiments of both theses and check their figures, tables and statements"};
   Options options;
   declare(app, options);
   int status = exit_done;

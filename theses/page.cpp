@@ -102,7 +102,7 @@ std::string number_html(const Measured& one) {
   if (std::isnan(one.value)) {
     text = "no number";
   } else if (!std::isfinite(one.uncertainty)) {
-    text = fmt::format("{:.3g}, not known how certain", one.value);
+    text = fmt::format("{:.3g}, uncertainty unknown", one.value);
   } else {
     text = number_text(one);
     if (one.uncertainty > 0) text += fmt::format(" &plusmn; {:.2g}", one.uncertainty);
@@ -134,7 +134,7 @@ std::string remark_on(const Claim& claim) {
       return "beyond the rule";
     case ClaimVerdict::cannot_hold:
       return claim.grounds == Grounds::identity ? "beyond the rule, which is an identity"
-                                                : "beyond the rule in independent ways";
+                                                : "beyond the rule in independent measurements";
     case ClaimVerdict::undecided: {
       const std::size_t run = reason.find("; would decide: ");
       return doubt(claim) + (run == reason.npos ? "" : reason.substr(run));
@@ -249,7 +249,7 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
                                  escaped_html(info.id), escaped_html(info.title), escaped_html(info.thesis),
                                  escaped_html(pages_text(info.page)), name_of(report.extent));
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
-  if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
+  if (report.status == "interrupted") return text + "<p>Not computed yet; --resume continues.</p>\n";
   const fs::path folder = top / "reproduction" / info.id;
   const auto kept = read_stored_results(folder, fingerprint_of(info.id, report.extent));
   if (kept) text += figures_html(folder, *kept);

@@ -41,13 +41,13 @@ struct Majority {
   }
   Rule rule(const std::string& what) const {
     Rule all{"number of " + what +
-             " above half of those that differ by more than chance allows: sign test, two-sided, 5 %"};
+             "; it has to exceed half of those that differ by more than chance allows (two-sided sign test, 5 %)"};
     all.low = (with + against) / 2.0;
     return all;
   }
   Measured measured(const std::string& how) const {
     return {static_cast<double>(with), sign_test_uncertainty(with + against),
-            std::to_string(with) + " with, " + std::to_string(against) + " against; " + how + "; +- of the sign test"};
+            std::to_string(with) + " with, " + std::to_string(against) + " against; " + how + "; +- by the sign test"};
   }
 };
 
@@ -60,7 +60,7 @@ inline double largest_share_unseen(int n) { return n > 0 ? 1 - std::pow(1 - conf
 /// holds if this is below 1/2, that is one in twenty, which needs 59 cases.
 inline Rule none_of_all(const std::string& what) {
   Rule rule = none_of(what);
-  rule.text += "; of those not looked at fewer than one in twenty, 95 % confidence: 59 without one";
+  rule.text += "; with 95 % confidence fewer than one in twenty of all cases, which takes 59 cases without one";
   return rule;
 }
 inline Measured seen_among(int number, int of, const std::string& how) {

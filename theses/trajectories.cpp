@@ -38,13 +38,13 @@ double distance_from_segment(const std::vector<double>& x, const std::vector<dou
 
 void claim_second_order(Study& study, const Study::Statement& statement, const Halving& halving) {
   if (halving.coarse <= halving.rounding && halving.fine <= halving.rounding) {
-    study.claim(statement, at_most(halving.rounding, "rounding of the steps: there is no other error"),
+    study.claim(statement, at_most(halving.rounding, "rounding of the steps, which is the only error"),
                 {{halving.coarse, 0, "largest distance"}});
     return;
   }
   study.claim(
       statement,
-      within(4, 0.3, "the distance for dt over that for dt/2: linear elements have order 2, an error like dt^2"),
+      within(4, 0.3, "the distance for dt divided by that for dt/2: linear elements have order 2, an error like dt^2"),
       {{halving.coarse / halving.fine, 4 * halving.rounding / halving.fine,
         fmt::format("distances {:.3g} and {:.3g}", halving.coarse, halving.fine)}});
 }

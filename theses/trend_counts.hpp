@@ -52,8 +52,8 @@ struct Followers {
     const Count sum = all();
     return {sum.share(), of_open() + of_v1(),
             fmt::format(
-                "{} of {} runs follow, {} go against it, {} are open ({} of these cut where H was off by 1 %, which "
-                "measure nothing); {:.0f} to {:.0f} % of the runs of one v1 follow",
+                "{} of {} runs follow the trend, {} go against it, {} are open ({} of these were cut when H was off by "
+                "1 %, and measure nothing); {:.0f} to {:.0f} % of the runs with one v1 follow it",
                 sum.with, sum.all(), sum.against, sum.open, cut, 100 * least->share(), 100 * most->share())};
   }
 };
@@ -62,8 +62,8 @@ struct Followers {
 /// exceptions, 2 of 6 for attracting forces.
 inline Rule trend_rule() {
   return at_least(0.5,
-                  "share of the runs of a grid of v1 and Q1 that follow: a trend is what more than half do, for "
-                  "the thesis' own table has exceptions where the force attracts (2 of 6)");
+                  "share of the runs on a grid of v1 and Q1 that follow the trend. More than half have to follow it, "
+                  "because the thesis' own table has exceptions if the force attracts (2 of 6)");
 }
 
 }  // namespace hamflow::reproduction::t_tube_table

@@ -91,7 +91,7 @@ struct Ensembles {
   }
   std::string left_out() const {
     const int left = near.left_out + grid.left_out;
-    return fmt::format("{} of {} runs left out, whose H is off by more than {:g} %", left,
+    return fmt::format("{} of {} runs are left out, because their H is off by more than {:g} %", left,
                        left + near.first.members + grid.first.members, 100 * most_energy_error);
   }
 };
@@ -105,8 +105,8 @@ inline Measured distance_of(const std::string& printed, const Ensembles& changes
   const double number = std::stod(printed);
   const double near = std::abs(number - (changes.near.*of).mean), grid = std::abs(number - (changes.grid.*of).mean);
   return {std::min(near, grid), changes.scatter(of),
-          fmt::format("{} {}: {:.4g} and {:.4g} from the means of {}; +- of one other start", body, printed, near, grid,
-                      changes.told())};
+          fmt::format("{} {}: {:.4g} and {:.4g} from the means of {}; +- for one other start", body, printed, near,
+                      grid, changes.told())};
 }
 
 /// Adds to the uncertainty of a distance that was measured with another rule or step size than the thesis used: the
@@ -114,7 +114,7 @@ inline Measured distance_of(const std::string& printed, const Ensembles& changes
 inline Measured by_another_way(Measured one, const Ensembles& changes, const Ensembles& usual, Change Changes::*of) {
   const double apart = std::abs((changes.near.*of).mean - (usual.near.*of).mean) + usual.scatter(of);
   one.uncertainty += apart;
-  one.how += fmt::format("; +- {:.2g} of rule and step", apart);
+  one.how += fmt::format("; +- {:.2g} for rule and step size", apart);
   return one;
 }
 

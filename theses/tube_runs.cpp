@@ -266,7 +266,7 @@ void find_two_to_one(const Study& study, const TubeSet& set, TubeWatch& watch, s
   const auto map = free_tube_step({.eps = watch.start.eps, .method = set.run.method});
   const double h = std::stod(set.run.dt);
   State<double> z(4);
-  simulation->tell_bounces([&](const Bounce& bounce) {
+  simulation->on_bounce([&](const Bounce& bounce) {
     z = {bounce.q[0], bounce.q[1], bounce.p[0], bounce.p[1]};
     if (map->advance(z, -h, 1) && inside(z)) watch.two_to_one.push_back(bounce.step);
   });

@@ -82,7 +82,7 @@ Measured explicit_pair() {
   return {
       is_pair ? 1.0 : 0.0, 0,
       fmt::format("a pair of states in long double: q = (0.1, 0.109013340127122), p = (-5, -90) is rejected; a step "
-                  "from q = ({:.10f}, {:.10f}), p = ({:.10f}, {:.10f}) leads to its image, but for {:.0e}",
+                  "from q = ({:.10f}, {:.10f}), p = ({:.10f}, {:.10f}) leads to its image, up to {:.0e}",
                   static_cast<double>(other.q[0]), static_cast<double>(other.q[1]), static_cast<double>(other.p[0]),
                   static_cast<double>(other.p[1]), static_cast<double>(apart))};
 }

@@ -21,7 +21,8 @@ READERS = ("src/scenario", "src/catalog", "src/core", "src/sweep/sweep.cpp", "sr
            "include/hamflow/core", "include/hamflow/run", "include/hamflow/scenario",
            "include/hamflow/methods")
 # Words that are also the names of something else, which has a declaration of its own.
-ALSO = {"lattice": "an arithmetic", "record": "what an event does"}
+ALSO = {"lattice": "an arithmetic", "record": "what an event does",
+        "coordinates": "a choice of a problem, between its charts"}
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 

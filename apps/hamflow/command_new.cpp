@@ -74,7 +74,7 @@ std::shared_ptr<const ProblemEntry> chosen(const NewOptions& options) {
   }
   throw Rejection(
       "--" + lacks->first,
-      fmt::format("found {}, which does not exist together with the other choices; allowed without it", lacks->second));
+      fmt::format("found {}, which cannot be combined with the other choices; leave it out", lacks->second));
 }
 
 /// The example that the problem declares; else a start in the region where `hamflow verify` measures, since runs are

@@ -55,12 +55,12 @@ void check_together(const SweepCommandOptions& options) {
 }
 
 void open_folder(ScenarioSweep& sweep, const SweepCommandOptions& options) {
-  const std::size_t told = sweep.notes().size();
+  const std::size_t printed = sweep.notes().size();
   const bool resumes = options.resume || !options.merge.empty();
   const Existing existing = resumes ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
   const std::vector<Complaint> wrong = sweep.keep_in(folder_for(options), existing);
   if (!wrong.empty()) throw Rejection(wrong);
-  print_notes({sweep.notes().begin() + static_cast<std::ptrdiff_t>(told), sweep.notes().end()}, options.quiet);
+  print_notes({sweep.notes().begin() + static_cast<std::ptrdiff_t>(printed), sweep.notes().end()}, options.quiet);
 }
 
 SweepReport carry_out(ScenarioSweep& sweep, const SweepCommandOptions& options,
@@ -91,8 +91,8 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
 void print_missing(const ScenarioSweep& sweep, const SweepCommandOptions& options) {
   const std::vector<std::string> missing = sweep.missing_shards();
   if (missing.empty()) return;
-  print_notes({"members are missing of the shards " + joined(missing) +
-               "; run these with --resume, or all missing members with --resume and without --shard"},
+  print_notes({"members are missing from the shards " + joined(missing) +
+               "; run these shards with --resume, or all missing members with --resume and without --shard"},
               options.quiet);
 }
 

@@ -8,6 +8,7 @@
 
 #include "hamflow/detail/workflow/rejection_json.hpp"
 #include "hamflow/figures/stop_drawing.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "progress.hpp"
 #include "whole_file.hpp"
@@ -52,6 +53,8 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     return failed(json, "file", error.what(), exit_file);
   } catch (const std::filesystem::filesystem_error& error) {
     return failed(json, "file", error.what(), exit_file);
+  } catch (const ClientError& error) {
+    return failed(json, "client", error.what(), exit_failed);
   } catch (const Error& error) {
     if (!failure.empty()) return failed(json, failure, error.what(), exit_failed);
     return rejected(json, {{"", 0, 0, "", error.what()}});

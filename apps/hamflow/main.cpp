@@ -120,7 +120,8 @@ int main(int argc, char** argv) {
           "fastest [required without --merge]")
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false);
-  sweep_command->add_flag("--zip", sweep.zip, "combine the n-th values of all keys, not every value with every other");
+  sweep_command->add_flag("--zip", sweep.zip,
+                          "combine the n-th values of all keys instead of forming every combination");
   sweep_command->add_option("--set", sweep.sets, "override a key for all members, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -222,9 +223,7 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   auto* const reverse_force =
       reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
-  reverse_command
-      ->add_flag("--resume", reverse.resume,
-                 "continue the reversal in the folder, on the way forward or on the way back")
+  reverse_command->add_flag("--resume", reverse.resume, "continue an interrupted reversal from its last checkpoint")
       ->excludes(reverse_force);
   reverse_command->add_flag("--json", reverse.json, "print only JSON on stdout");
   reverse_command->add_flag("--quiet", reverse.quiet, "print no progress and no notes");
@@ -245,8 +244,8 @@ int main(int argc, char** argv) {
       ->type_name("METHODS");
   compare_command
       ->add_option("--dt", compare.dts,
-                   "step sizes, separated by commas; each is moved to the nearest one that divides t_end [from twice "
-                   "run.dt down to a sixteenth of it]")
+                   "step sizes, separated by commas; each is replaced by the nearest one that divides t_end "
+                   "[from twice run.dt down to a sixteenth of it]")
       ->type_name("DT");
   compare_command->add_option("--set", compare.sets, "override a key: dotted path and TOML value, e.g. run.t_end=10")
       ->type_name("PATH=VALUE")
@@ -276,7 +275,7 @@ int main(int argc, char** argv) {
   shell_command->callback([&] { status = hamflow::app::shell_command(shell); });
 
   NewOptions fresh;
-  CLI::App* new_command = add(app, "new", "Print a scenario for a problem, to begin with",
+  CLI::App* new_command = add(app, "new", "Print a scenario for a problem, to start from",
                               "  hamflow new central-force > my.toml && hamflow run my.toml\n"
                               "  hamflow new henon-heiles --method 'cg(2,6)' --all > all.toml\n"
                               "  hamflow new central-force --potential hooke --coordinates polar > hooke.toml\n");
@@ -286,10 +285,10 @@ int main(int argc, char** argv) {
   for (const auto& [key, owners] : problems_by_choice()) {
     new_command->add_option("--" + key, fresh.variant[key], "for " + hamflow::joined(owners));
   }
-  new_command->add_option("--method", fresh.method, "with its options, e.g. 'cg(2,6)' [the usual one]")
+  new_command->add_option("--method", fresh.method, "the method, with its options, e.g. 'cg(2,6)' [the usual one]")
       ->type_name("METHOD");
   new_command->add_flag("--all", fresh.all,
-                        "every key of the problem and the method, those that are not set as comments");
+                        "print every key of the problem and the method; keys that are not set are comments");
   new_command->callback([&] { status = hamflow::app::new_command(fresh); });
 
   ConvertOptions convert;

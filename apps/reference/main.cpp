@@ -30,7 +30,7 @@ std::string rows(std::span<const OptionInfo> options, const std::string& before 
     std::string meaning = option.meaning;
     if (!option.unit.empty()) meaning += ", in units of " + option.unit;
     if (!option.condition.empty()) meaning += "; " + option.condition;
-    if (option.free_on_resume) meaning += "; free with --resume";
+    if (option.free_on_resume) meaning += "; may change with --resume";
     text += fmt::format("| `{}{}` | {} | {} | {} |\n", before, option.name, cell(allowed_text(option)),
                         cell(default_text(option)), cell(meaning));
     text += rows(option.keys, before + option.name + ".");
@@ -65,14 +65,14 @@ std::string starts(const ProblemInfo& info) {
 /// A start of its own has as many as every other.
 std::string degrees_of_freedom(const ProblemEntry& entry) {
   const std::size_t n = entry.dimension > 0 ? static_cast<std::size_t>(entry.dimension) : entry.info.default_q.size();
-  if (!entry.constraint_form.empty()) return std::to_string(n) + ", less one for each constraint";
-  return n > 0 ? std::to_string(n) : "as many as the start has";
+  if (!entry.constraint_form.empty()) return std::to_string(n) + ", minus one for each constraint";
+  return n > 0 ? std::to_string(n) : "given by the start";
 }
 
 /// The problem whose Hamiltonian is typed.
 std::string typed_problem(const ProblemEntry& example) {
   std::string text =
-      fmt::format("### {}\n\nA Hamiltonian as it is typed, e.g. `{}`.\n\n", example.info.name, example.info.formula);
+      fmt::format("### {}\n\nA Hamiltonian that you type, e.g. `{}`.\n\n", example.info.name, example.info.formula);
   text += table(keys_of(example.info));
   for (const std::string& sentence : formula_language()) text += "- " + sentence + "\n";
   return text + "\n`initial = { q, p }` with canonical momenta, or `{ q, v }` with velocities.\n\n";
@@ -145,29 +145,27 @@ std::string page() {
   std::string text =
       "# Reference\n\nMade by `./dev docs` from the declarations in the code; a test compares the two. Keys stand in "
       "the tables of a\nscenario; numbers may be given as texts such as \"1/3\" or \"2*pi/100\".\n\n## [problem]\n\n"
-      "Of every state one component of p, or of v, may be left to the energy: `initial = { q = [0, 0.1], p = [\"+\", "
-      "0.1],\nenergy = 0.125 }`, `\"+\"` the largest, `\"-\"` the smallest root of H = energy. Where H is not "
-      "quadratic "
-      "in it the root is\nsearched: in 0, in 128 points of each power of 2 from 2^-20 to 2^20 and four of each from "
-      "2^-100 to 2^100, of both\nsigns, and between them where H comes near the energy; narrower dips are not seen. "
-      "Where H oscillates, as cos(p), the\nstart is refused.\n\n";
+      "One component of p, or of v, may be computed from the energy: `initial = { q = [0, 0.1], p = [\"+\", 0.1],\n"
+      "energy = 0.125 }`. `\"+\"` is the largest and `\"-\"` the smallest root of H = energy. If H is not quadratic "
+      "in the\ncomponent, the root is searched at 0, at 128 points for each power of 2 from 2^-20 to 2^20, at four "
+      "points for each\nfrom 2^-100 to 2^100, with both signs, and between these points where H comes near the energy. "
+      "Narrower dips are not\nseen. If H oscillates, as cos(p) does, the start is refused.\n\n";
   for (const ProblemEntry& entry : problems()) text += problem(entry);
   for (const ProblemEntry& entry : typed_examples()) {
     if (entry.to_reference) continue;
     text += fmt::format(
-        "### {0}, {1} = \"formula\"\n\nThe {1} is typed, e.g. {2}, with any `{3}`.\nA run starts by `initial`, "
-        "`bodies` and, where V is without t, `orbit` with energy and angular momentum.\n\n",
+        "### {0}, {1} = \"formula\"\n\nYou type the {1}, e.g. {2}, with any `{3}`.\nThe start is `initial`, "
+        "`bodies` or, if V does not depend on t, `orbit` with energy and angular momentum.\n\n",
         entry.info.name, entry.info.typed_choice, entry.info.formula, entry.info.chart_key);
     text += table(entry.info.keys);
   }
   const WallKeys& walls = wall_keys();
   text +=
-      "### Walls, of any problem\n\nThose of `t-tube` are fixed; it takes their rule. Behind hard walls invariants "
-      "that a "
-      "wall breaks, closed forms and\nfacts of the orbit are left out, and `compare` measures against a motion whose "
-      "bounces are located.\n\n";
+      "### Walls, of any problem\n\nThe walls of `t-tube` are fixed; only their rule can be set. With hard walls a run "
+      "leaves out the invariants that\na wall breaks, closed solutions and properties of the orbit, and `compare` "
+      "measures errors against a motion whose\nbounces are located.\n\n";
   text += table(std::vector<OptionInfo>{walls.walls, walls.wall_rule, walls.strength, walls.exponent});
-  text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
+  text += "## [method]\n\n`name` is one of the methods below; options may follow it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);
   for (const DeclaredTable& declared : declared_tables())
     text += "## [" + declared.name + "]\n\n" + table(declared.keys);

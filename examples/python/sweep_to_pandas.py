@@ -1,4 +1,4 @@
-"""A sweep as a table of pandas: the energy errors of three methods for five lengths of a step."""
+"""A sweep as a table of pandas: the energy errors of three methods for five step sizes."""
 
 import matplotlib
 

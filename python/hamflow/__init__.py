@@ -22,6 +22,7 @@ from ._certify import LogCertificate, StepCertificate, certify, certify_step
 from ._compare import Compare, compare
 from ._convert import convert
 from ._errors import Error, FileError, Rejection, StepFailed
+from ._orbits import elements, state
 from ._problem import Problem
 from ._run import Reversal, Run, States, open, reverse, run
 from ._scenario import Scenario
@@ -36,7 +37,8 @@ __version__: str = _core.version
 __all__ = ["Compare", "Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario",
            "Shown", "Simulation", "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "Verification",
            "acos", "asin", "atan", "atan2", "certify", "certify_step", "cite", "compare", "convert", "cos", "cosh",
-           "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "sweep",
+           "elements", "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "state",
+           "sweep",
            "tan", "tanh", "verify"]
 
 

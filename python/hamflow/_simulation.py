@@ -212,7 +212,7 @@ class Simulation:
             As in advance().
         """
         if (steps is None) == (at is None):
-            raise TypeError("sample takes steps= or at=")
+            raise TypeError("sample needs either steps= or at=")
         if at is not None:
             times = [each if isinstance(each, str) else repr(float(each)) for each in np.ravel(np.asarray(at)).tolist()]
             table = self._core.sample_at(times, digits)

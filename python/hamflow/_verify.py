@@ -83,7 +83,7 @@ def verify(methods: str | Sequence[str] = (), /, *, problem: str | None = None, 
     """
     names = [methods] if isinstance(methods, str) else list(methods)
     if bool(names) == all:
-        raise TypeError("verify takes methods, or all=True")
+        raise TypeError("verify needs methods, or all=True")
     found = _core.verify(names, all, problem or "")
     result = Verification(found)
     if found["interrupted"] is not None:

@@ -16,5 +16,6 @@ void bind_verify(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweep(pybind11::module_& m);
 void bind_certify(pybind11::module_& m);
+void bind_orbits(pybind11::module_& m);
 
 }  // namespace hamflow::python

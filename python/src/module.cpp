@@ -52,4 +52,5 @@ PYBIND11_MODULE(_core, m) {
   hamflow::python::bind_simulation(m);
   hamflow::python::bind_sweep(m);
   hamflow::python::bind_certify(m);
+  hamflow::python::bind_orbits(m);
 }

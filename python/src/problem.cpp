@@ -45,6 +45,10 @@ std::pair<Rows, Rows> states_of(const ChosenProblem& problem, const Array& q, co
     const std::string wrong = problem.entry->refused_size(problem.parameters, rows.first.width);
     if (!wrong.empty()) throw Error("q: " + wrong);
   }
+  if (!problem.entry->energy) {
+    throw Error(problem.entry->info.name + ": energy and gradient are not available outside a run, because a client " +
+                "computes them");
+  }
   return rows;
 }
 

@@ -14,8 +14,8 @@ namespace hamflow::python {
 /// returns false, so that the computation stops after its step, and rethrow() raises the exception again.
 class Interrupts {
  public:
-  /// @param told the progress function, called with the number of steps taken; may be empty
-  explicit Interrupts(std::function<void(std::int64_t)> told = {}) : told_(std::move(told)) {}
+  /// @param progress the progress function, called with the number of steps taken; may be empty
+  explicit Interrupts(std::function<void(std::int64_t)> progress = {}) : progress_(std::move(progress)) {}
 
   /// Returns false if the computation has to stop. The caller has released the lock.
   bool go_on(std::int64_t steps) {
@@ -26,7 +26,7 @@ class Interrupts {
     const pybind11::gil_scoped_acquire lock;
     try {
       if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-      if (told_) told_(steps);
+      if (progress_) progress_(steps);
     } catch (...) {
       raised_ = std::current_exception();
     }
@@ -52,7 +52,7 @@ class Interrupts {
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::function<void(std::int64_t)> told_;
+  std::function<void(std::int64_t)> progress_;
   Clock::time_point last_ = Clock::now();
   std::exception_ptr raised_;
 };

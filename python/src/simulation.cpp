@@ -91,7 +91,7 @@ class Sampler final : public Observer {
 /// Calls a Python function after every `every` steps.
 class Watcher final : public Observer {
  public:
-  Watcher(std::int64_t every, py::object told) : every_(every), told_(std::move(told)) {}
+  Watcher(std::int64_t every, py::object callback) : every_(every), callback_(std::move(callback)) {}
   std::int64_t next_due(std::int64_t step) const override {
     const std::int64_t calls = (std::max(step, seen_ + 1) - 1) / every_ + 1;  // rounds up without an overflow
     return calls <= never / every_ ? calls * every_ : never;
@@ -99,7 +99,7 @@ class Watcher final : public Observer {
   Verdict observe(const Frame& frame) override {
     seen_ = frame.step;
     const py::gil_scoped_acquire lock;
-    const py::object answer = told_();
+    const py::object answer = callback_();
     if (!py::isinstance<py::str>(answer)) return Verdict::go_on;
     const auto said = answer.cast<std::string>();
     if (said != "stop") throw Error("observe: the function returned \"" + said + "\"; allowed \"stop\", or nothing");
@@ -110,7 +110,7 @@ class Watcher final : public Observer {
  private:
   std::int64_t every_;
   std::int64_t seen_ = -1;
-  py::object told_;
+  py::object callback_;
 };
 
 [[noreturn]] void raise_failure(const Simulation& simulation, Outcome outcome) {
@@ -271,9 +271,9 @@ class PySimulation {
     if (sum != fnv1a(content)) throw Error("saved: the bytes are damaged; allowed the bytes returned by save()");
     simulation_->restore(content);
   }
-  void watch(std::int64_t every, py::object told) {
+  void watch(std::int64_t every, py::object callback) {
     if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 or more");
-    watchers_.push_back(std::make_shared<Watcher>(every, std::move(told)));
+    watchers_.push_back(std::make_shared<Watcher>(every, std::move(callback)));
   }
 
  private:

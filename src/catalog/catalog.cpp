@@ -12,9 +12,11 @@
 #include "hamflow/detail/core/option_names.hpp"
 #include "hamflow/detail/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/socket.hpp"
 #include "methods/step_control.hpp"
 #include "problems/constrained_problems.hpp"
 #include "problems/typed_problem.hpp"
+#include "socket/socket_entry.hpp"
 #include "walls/walled_problem.hpp"
 
 namespace hamflow {
@@ -29,6 +31,7 @@ std::span<const ProblemEntry> problems() {
     std::vector<ProblemEntry> entries = generated_problems();
     for (ProblemEntry& entry : constrained_problems()) entries.push_back(std::move(entry));
     entries.push_back(*gas_problem({}));
+    entries.push_back(*socket_problem({}));
     entries.push_back(formula_example());
     return entries;
   }();
@@ -38,9 +41,13 @@ std::span<const ProblemEntry> problems() {
 std::shared_ptr<const ProblemEntry> find_problem(const std::string& name,
                                                  const std::map<std::string, std::string>& variant,
                                                  const std::optional<Walls>& walls) {
+  if (walls && name == SocketKeys::problem) {
+    throw Error("found walls; allowed without walls for " + name + ", whose client computes all forces");
+  }
   if (walls) return walled_problem(name, variant, *walls);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
+  if (name == SocketKeys::problem) return socket_problem(variant);
   const ProblemEntry* same_name = nullptr;
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name) continue;
@@ -66,6 +73,9 @@ std::shared_ptr<const ProblemEntry> usual_problem(const std::string& name,
                                                   const std::map<std::string, std::string>& variant) {
   if (is_typed(name, variant)) return typed_problem(name, variant);
   if (name == GasKeys::problem) return gas_problem(variant);
+  if (name == SocketKeys::problem) {
+    return socket_problem(variant.empty() ? Texts{{SocketKeys::address, socket_options().front().example}} : variant);
+  }
   const std::shared_ptr<const ProblemEntry> any = find_problem(name, variant);
   const auto usual = [](const ProblemInfo& info, const std::string& key) {
     const auto listed = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
@@ -108,8 +118,8 @@ static std::string refusal_of_constraints(const std::string& method, const Probl
            FormulaKeys::multiplier + "\", rk4, dop853, taylor";
   }
   return method +
-         " needs the gradient of an H, which the field with multipliers is not; allowed here: rk4, dop853, "
-         "taylor, or, with " +
+         " needs the gradient of H, but the field with multipliers is not a gradient; allowed here: rk4, "
+         "dop853, taylor, or, with " +
          form + " = \"" + FormulaKeys::manifold + "\", rattle, rattle4";
 }
 
@@ -152,7 +162,7 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
     return "allowed a whole number from 1 to " + std::to_string(most_threads);
   }
   if (step_control_of(request.method).reversible) {
-    return "threads can share only steps of equal length; allowed 1, or step_control = \"fixed\"";
+    return "threads can share only steps of equal size; allowed 1, or step_control = \"fixed\"";
   }
   if (!problem.has_pairwise_forces) {
     std::vector<std::string> all;
@@ -209,7 +219,7 @@ std::unique_ptr<Simulation> make_simulation_of(Request request) {
   const int digits = digits_beyond_double(full.arithmetic);
   const MethodFamily& family = *find_method(full.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
-  // Steps of varying length run behind virtual calls, one by one, in every arithmetic.
+  // Steps of varying size run behind virtual calls, one by one, in every arithmetic.
   if (digits > 0 || step_control_of(full.method).reversible) return problem.simulate_erased(full);
   const bool of_any_size = problem.dimension == 0;
   if (of_any_size && full.arithmetic != "lattice") {

@@ -1,6 +1,7 @@
 #include "hamflow/run/state_names.hpp"
 
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/socket.hpp"
 
 namespace hamflow {
 
@@ -11,6 +12,7 @@ namespace {
 /// whose container may remove it, has a parameter for the dimension.
 std::size_t space_of_bodies(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
   if (problem.info.name == GasKeys::problem) return number_value(parameters.at(GasKeys::dimension)) == 3 ? 3 : 2;
+  if (problem.info.name == SocketKeys::problem) return 3;
   const auto bare_entry = find_problem(problem.info.name, {});
   const ProblemEntry& bare = *bare_entry;
   const std::vector<InvariantInfo>& invariants = bare.info.invariants;

@@ -47,6 +47,7 @@ class ForwardingFunctions : public Functions<S> {
   std::size_t radial_space() const override { return exact_->radial_space(); }
   std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override { return exact_->radial_terms(); }
   RadialLaw<S> radial_law(const S& u) const override { return exact_->radial_law(u); }
+  PointMasses<base_scalar<S>> point_masses() const override { return exact_->point_masses(); }
 
  protected:
   Pointer exact_;

@@ -3,12 +3,13 @@
 #include <chrono>
 
 #include "hamflow/arithmetic/mp.hpp"
+#include "planetary_steps.hpp"
 #include "step_interruption.hpp"
 
 namespace hamflow {
 
 namespace {
-class MpSimulation final : public Simulation {
+class MpSimulation final : public Simulation, public PlanetarySteps {
  public:
   MpSimulation(int digits, std::unique_ptr<Simulation> inner) : digits_(digits), inner_(std::move(inner)) {}
   ~MpSimulation() override {
@@ -70,8 +71,18 @@ class MpSimulation final : public Simulation {
       }
     });
   }
+  std::optional<CloseEncounter> first_encounter() const override {
+    return in_scope([&]() -> std::optional<CloseEncounter> {
+      const auto* const steps = dynamic_cast<const PlanetarySteps*>(inner_.get());
+      return steps != nullptr ? steps->first_encounter() : std::nullopt;
+    });
+  }
+  bool watches_every_step() const override {
+    const auto* const steps = dynamic_cast<const PlanetarySteps*>(inner_.get());
+    return steps == nullptr || steps->watches_every_step();
+  }
   std::vector<WallCount> wall_counts() const override { return inner_->wall_counts(); }
-  void tell_bounces(std::function<void(const Bounce&)> told) override { inner_->tell_bounces(std::move(told)); }
+  void on_bounce(std::function<void(const Bounce&)> callback) override { inner_->on_bounce(std::move(callback)); }
   std::vector<std::byte> save() const override {
     return in_scope([&] { return inner_->save(); });
   }

@@ -31,15 +31,15 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   std::string failure() const override { return extended_->failure(); }
   bool is_recorded() const override { return extended_->is_recorded(); }
   std::vector<WallCount> wall_counts() const override { return extended_->wall_counts(); }
-  void tell_bounces(std::function<void(const Bounce&)> told) override {
-    if (!told) return extended_->tell_bounces({});
-    extended_->tell_bounces([told = std::move(told)](const Bounce& extended) {
+  void on_bounce(std::function<void(const Bounce&)> callback) override {
+    if (!callback) return extended_->on_bounce({});
+    extended_->on_bounce([callback = std::move(callback)](const Bounce& extended) {
       Bounce bounce = extended;
       strip(bounce.q);
       strip(bounce.p);
       strip(bounce.digits.q);
       strip(bounce.digits.p);
-      told(bounce);
+      callback(bounce);
     });
   }
   std::vector<std::byte> save() const override { return extended_->save(); }

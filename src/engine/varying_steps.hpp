@@ -1,4 +1,4 @@
-// Steps of varying length on a problem behind virtual calls.
+// Steps of varying size on a problem behind virtual calls.
 #pragma once
 
 #include "erased.hpp"

@@ -116,7 +116,7 @@ std::string refused_times(const Figure& figure, const figures::FigureKind& kind)
   for (const FigureData& run : figure.runs) {
     for (const double t : asked) {
       const figures::MissingSample other = figures::missing_sample_at(run, t);
-      if (other.is_beyond) return "found the time " + shortest(t) + "; allowed times of " + other.told;
+      if (other.is_beyond) return "found the time " + shortest(t) + "; allowed times of " + other.samples;
     }
   }
   return "";
@@ -128,9 +128,9 @@ std::vector<std::string> notes_on_times(const Figure& figure) {
   for (const FigureData& run : figure.runs) {
     for (const double t : figure.options.at) {
       const figures::MissingSample other = figures::missing_sample_at(run, t);
-      if (other.told.empty()) continue;
+      if (other.samples.empty()) continue;
       notes.push_back((figure.runs.size() > 1 ? run.label + ": " : "") + "no sample is at the time " + shortest(t) +
-                      ", only at those of " + other.told + ", which is drawn");
+                      ", only at those of " + other.samples + ", which is drawn");
     }
   }
   return notes;

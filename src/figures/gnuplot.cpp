@@ -169,7 +169,8 @@ class Child {
   std::optional<int> ended() {
     int status = 0;
     const pid_t which = waitpid(id_, &status, WNOHANG);
-    if (which < 0 && errno != EINTR) throw FileError(fmt::format("gnuplot was lost: {}", std::strerror(errno)));
+    if (which < 0 && errno != EINTR)
+      throw FileError(fmt::format("waiting for gnuplot failed: {}", std::strerror(errno)));
     ended_ = which == id_;
     return ended_ ? std::optional(status) : std::nullopt;
   }
@@ -187,7 +188,7 @@ int wait_for(Child& child, double longest) {
       throw DrawingStopped("stopped while gnuplot was drawing");
     }
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > longest) {
-      throw FileError(fmt::format("gnuplot was ended: it did not finish within {:g} s", longest));
+      throw FileError(fmt::format("gnuplot was stopped, because it did not finish within {:g} s", longest));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

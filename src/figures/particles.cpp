@@ -31,7 +31,7 @@ MissingSample missing_sample_at(const FigureData& data, double t) {
   const auto [first, last] = std::minmax({data.t.front(), data.t.back()});
   const std::string samples = "the " + std::to_string(data.t.size()) + " samples from " + shortest(first) + " to " +
                               shortest(last) + "; the nearest is at " + shortest(nearest);
-  return {.told = samples, .is_beyond = t < first || t > last};
+  return {.samples = samples, .is_beyond = t < first || t > last};
 }
 
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times) {

@@ -14,7 +14,7 @@ namespace hamflow::figures {
 
 /// Describes the samples if none is at a given time, to rounding; empty if there is one.
 struct MissingSample {
-  std::string told{};  // for example "the 21 samples from 0 to 1; the nearest is at 0.5"
+  std::string samples{};  // for example "the 21 samples from 0 to 1; the nearest is at 0.5"
   bool is_beyond = false;
 };
 MissingSample missing_sample_at(const FigureData& data, double t);

@@ -196,7 +196,7 @@ Model::Model(const FormulaTexts& texts) {
     refuse(none                    ? FormulaKeys::hamiltonian
            : texts.kinetic.empty() ? FormulaKeys::kinetic
                                    : FormulaKeys::potential,
-           "found none; allowed hamiltonian, or kinetic and potential");
+           "missing; allowed hamiltonian, or kinetic and potential");
   }
 
   Graph graph;

@@ -102,7 +102,7 @@ ProblemNames names_of(const FormulaTexts& texts) {
     }
   };
   if (texts.coordinates.empty())
-    throw FormulaError(FormulaKeys::coordinates, "found none; allowed one or more, such as [\"x\", \"y\"]");
+    throw FormulaError(FormulaKeys::coordinates, "missing; allowed one or more, such as [\"x\", \"y\"]");
   if (!texts.momenta.empty() && texts.momenta.size() != texts.coordinates.size()) {
     throw FormulaError(FormulaKeys::momenta, "found " + std::to_string(texts.momenta.size()) +
                                                  "; allowed as many as coordinates, " +

@@ -116,11 +116,11 @@ std::vector<ParameterInfo> parameters_of(const Kind& kind) {
                    .required = true});
     if (kind.shape.cutoff == CutoffKind::smooth) {
       all.push_back({.name = Keys::inner,
-                     .meaning = "distance from which phi is faded out",
+                     .meaning = "distance from which phi is reduced smoothly to 0",
                      .range = Range::positive,
                      .required = true});
     }
-    all.push_back(number(Keys::skin, "0.3", "skin of the neighbour lists; does not change a bit", Range::positive));
+    all.push_back(number(Keys::skin, "0.3", "skin of the neighbour lists; does not change results", Range::positive));
   }
   return all;
 }
@@ -203,7 +203,7 @@ std::optional<std::pair<std::size_t, std::size_t>> coinciding_images(const std::
 }
 
 /// Refuses particles outside the container, and two particles at one point, where phi is undefined.
-std::string refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
+StartRefusal refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
   const Parameters<double> given(texts);
   const auto space = static_cast<std::size_t>(given[Keys::dimension]);
   const std::size_t particles = q.size() / space;
@@ -212,11 +212,11 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
     for (std::size_t k = 0; k < space; ++k) square += q[i * space + k] * q[i * space + k];
     const bool outside =
         kind.shape.container == ContainerKind::circle && !(square < given[Keys::radius] * given[Keys::radius]);
-    const std::string who = "particle " + std::to_string(i + 1) + " at ";
-    if (outside) {
-      return who + shortest(std::sqrt(square)) +
-             " from the origin, on or beyond the soft wall; allowed below radius = " + shortest(given[Keys::radius]);
-    }
+    if (!outside) continue;
+    return {"particle " + std::to_string(i + 1) + " at " + shortest(std::sqrt(square)) +
+                " from the origin, on or beyond the soft wall; allowed below radius = " + shortest(given[Keys::radius]),
+            Keys::radius,
+            {i + 1}};
   }
   if (given.has("softening") && given["softening"] > 0) return {};
   std::vector<std::size_t> order(particles);
@@ -229,14 +229,17 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
   for (std::size_t k = 1; k < particles; ++k) {
     const auto [a, b] = std::minmax(order[k - 1], order[k]);
     if (!std::equal(place(a), end(a), place(b))) continue;
-    return "particles " + std::to_string(a + 1) + " and " + std::to_string(b + 1) +
-           " at one point; allowed different positions";
+    return {.message = "particles " + std::to_string(a + 1) + " and " + std::to_string(b + 1) +
+                       " at one point; allowed different positions",
+            .particles = {a + 1, b + 1}};
   }
   if (kind.shape.container != ContainerKind::periodic) return {};
   if (const auto same = coinciding_images(q, given.list(Keys::size))) {
-    return "particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
-           " at images of the same point in the periodic box; allowed different positions in a box of size = [" +
-           joined(given.list(Keys::size), shortest) + "]";
+    return {"particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
+                " at images of the same point in the periodic box; allowed different positions in a box of size = [" +
+                joined(given.list(Keys::size), shortest) + "]",
+            Keys::size,
+            {same->first + 1, same->second + 1}};
   }
   return {};
 }
@@ -297,7 +300,7 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   const R h = evaluate_number<R>(request.dt);
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
-    // Walls and steps of varying length need virtual calls.
+    // Walls and steps of varying size need virtual calls.
     const bool needs_virtual_calls = request.walls || step_control_of(request.method).reversible;
     if (request.arithmetic == "lattice" && !needs_virtual_calls) {
       simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
@@ -338,7 +341,7 @@ StepInDouble step_in_double(const GasShape& shape, Request request) {
       if (outcome != Outcome::outside) break;
       if (further == 0) return simulation->failure();
       return simulation->failure() + ", in double " + std::to_string(further) + (further == 1 ? " step" : " steps") +
-             " later: the lattice has no integer for the kick that leads there";
+             " later: on the lattice the kick that leads there is out of range";
     }
     return {};
   };
@@ -476,6 +479,7 @@ ProblemEntry entry_of(const Words& choices) {
                  .spread = 0.03,
                  .step = 0.011,
                  .time = 1.3};
+  info.example.steps = 1000;
   info.example.keys = {{o.particles_per_side.name, "5"},
                        {o.start.name, ""},
                        {o.seed.name, ""},  // a second is enough

@@ -32,12 +32,11 @@ GasOptions declared() {
       .name = "seed",
       .default_value = "1",
       .meaning =
-          "seed of the random momenta: with x = seed + (k + 1)*0x9e3779b97f4a7c15, x = (x xor x >> "
-          "30)*0xbf58476d1ce4e5b9, "
-          "x = (x xor x >> 27)*0x94d049bb133111eb, x = x xor x >> 31 in whole numbers modulo 2^64 (SplitMix64) and "
-          "m = floor(1e5*(x >> 11)*2^-53) the k-th momentum, k = 0, 1, ... in the order p_x, p_y(, p_z) of one "
-          "particle after another, the first coordinate of the lattice changing fastest, is 2e-5*m - 1, a decimal "
-          "of five places",
+          "seed of the random momenta. Momentum k = 0, 1, ... is 2e-5*m - 1, a decimal of five places, where "
+          "m = floor(1e5*(x >> 11)*2^-53) and x is computed in whole numbers modulo 2^64 (SplitMix64): x = seed + (k + "
+          "1)*0x9e3779b97f4a7c15, x = (x xor x >> 30)*0xbf58476d1ce4e5b9, x = (x xor x >> 27)*0x94d049bb133111eb, "
+          "x = x xor x >> 31. The order is p_x, p_y(, p_z) of one particle after another; the first coordinate of the "
+          "lattice changes fastest",
       .range = Range::whole_from(0, 0x1p53),
       .condition = "with start = \"lattice\""};
   o.masses = {.name = GasKeys::masses,
@@ -112,19 +111,18 @@ GasOptions declared() {
                             .example = "2.5"},
                  .kind = {.name = "kind",
                           .default_value = CutoffNames::shifted,
-                          .meaning = "shifted: phi goes to 0 at R; force-shifted: its force, too; smooth: phi is faded "
-                                     "out from inner on, of class "
-                                     "C^4",
+                          .meaning = "shifted: phi is shifted to 0 at R; force-shifted: phi and its force are shifted "
+                                     "to 0 at R; smooth: phi is reduced to 0 from inner to R by a factor of class C^4",
                           .type = OptionType::word,
                           .words = {CutoffNames::shifted, CutoffNames::force_shifted, CutoffNames::smooth}},
                  .inner = {.name = GasKeys::inner,
-                           .meaning = "distance from which phi is faded out",
+                           .meaning = "distance from which phi is reduced smoothly to 0",
                            .range = Range::positive,
                            .condition = "with kind = \"smooth\"",
                            .example = "2"},
                  .skin = {.name = GasKeys::skin,
                           .default_value = "0.3",
-                          .meaning = "skin of the neighbour lists; does not change a bit",
+                          .meaning = "skin of the neighbour lists; does not change results",
                           .range = Range::positive}};
   o.cutoff = {.name = GasKeys::cutoff,
               .meaning = "the cut-off distance R of phi, or { radius = R, kind, inner, skin }",

@@ -56,7 +56,7 @@ class OutsideSimulation final : public Simulation {
   MethodInfo method() const override { return inner_->method(); }
   bool is_recorded() const override { return inner_->is_recorded(); }
   std::vector<WallCount> wall_counts() const override { return inner_->wall_counts(); }
-  void tell_bounces(std::function<void(const Bounce&)> told) override { inner_->tell_bounces(std::move(told)); }
+  void on_bounce(std::function<void(const Bounce&)> callback) override { inner_->on_bounce(std::move(callback)); }
   std::vector<std::byte> save() const override { return inner_->save(); }
   void restore(std::span<const std::byte> saved) override { inner_->restore(saved); }
 

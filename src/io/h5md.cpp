@@ -68,7 +68,7 @@ void write_h5md_groups(hid_t file, const RunDescription& run) {
   write_box(file, "particles/all", of);
   for (const char* element : {"position", "momentum", "velocity"})
     (void)make_group(file, std::string("particles/all/") + element);
-  write_once(file, "particles/all/mass", of.masses, 0, {.meaning = "of each particle"});
+  write_once(file, "particles/all/mass", of.masses, 0, {.meaning = "mass of each particle"});
   (void)make_group(file, "observables/energy");
   for (const InvariantColumn& each : run.invariants) (void)make_group(file, "observables/" + each.name);
   for (const InvariantColumn& each : run.observables) (void)make_group(file, "observables/" + each.name);

@@ -30,7 +30,7 @@ struct H5mdNames {
   static constexpr const char* velocity = "particles/all/velocity/value";
   /// The edges do not change but have a row for each sample, because readers of H5MD do not accept another form.
   static constexpr const char* edges = "particles/all/box/edges/value";
-  static constexpr const char* edges_meaning = "of the box, whose middle is the origin";
+  static constexpr const char* edges_meaning = "edges of the box, which is centred at the origin";
   static constexpr const char* mass = "particles/all/mass/value";
   static constexpr const char* start_position = "particles/start/position/value";
   static constexpr const char* start_momentum = "particles/start/momentum/value";

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <optional>
 
@@ -167,7 +169,7 @@ std::ifstream opened(const std::filesystem::path& file) {
   std::error_code none;
   if (std::filesystem::is_directory(file, none)) throw FileError(file.string() + " is a folder; allowed a file");
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError("cannot read " + file.string() + "; does the file exist?");
+  if (!in) throw FileError("cannot read " + file.string() + ": " + std::strerror(errno));
   return in;
 }
 

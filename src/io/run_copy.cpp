@@ -60,7 +60,7 @@ class Copy {
   void group(const std::string& path) {
     const Hdf5Handle here(H5Gopen2(from_, path.empty() ? "/" : path.c_str(), H5P_DEFAULT), H5Gclose,
                           "open group " + path);
-    if (!is_new(here)) return leave_out(path, "the same group stands under another name");
+    if (!is_new(here)) return leave_out(path, "the same group was copied under another name");
     if (!path.empty()) attributes(here, make_group(to_, path), path);
     for (const std::string& name : names_in(here)) object(path.empty() ? name : path + "/" + name);
   }
@@ -82,7 +82,7 @@ class Copy {
   /// Returns whether a group was not visited yet, because groups may contain each other.
   bool is_new(hid_t group) {
     H5O_info_t info{};
-    check_hdf5(H5Oget_info2(group, &info, H5O_INFO_BASIC), "look at a group");
+    check_hdf5(H5Oget_info2(group, &info, H5O_INFO_BASIC), "read the address of a group");
     return groups_.emplace(info.fileno, info.addr).second;
   }
 

@@ -106,7 +106,7 @@ StoredTable stored_particles(hid_t file, const RunDescription& run, const Table&
       show(H5mdNames::momentum, "canonical momenta");
       if (!run.particles.unit_masses()) {
         info.unit.clear();
-        Shown& velocity = show(H5mdNames::velocity, "momenta over masses");
+        Shown& velocity = show(H5mdNames::velocity, "momenta divided by masses");
         for (std::size_t i = 0; i < run.dimension; ++i) velocity.divisors.push_back(run.particles.masses[i / space]);
       }
       if (!run.particles.edges.empty()) {

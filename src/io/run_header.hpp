@@ -16,11 +16,11 @@ struct NamedColumn {
 
 /// Datasets in /solver that `method.diagnostics` adds.
 inline constexpr NamedColumn diagnostic_columns[] = {
-    {"solver/iterations", "of the last step; NaN at the start"},
-    {"solver/residual", "of the last step"},
-    {"solver/condition_tangent", "of the tangent matrix of the last step"},
-    {"solver/determinant_tangent", "of the tangent matrix of the last step"},
-    {"solver/condition_inverse_mass", "of the inverse mass matrix at the last step"}};
+    {"solver/iterations", "iterations of the last step; NaN at the start"},
+    {"solver/residual", "residual of the last step"},
+    {"solver/condition_tangent", "condition number of the Jacobian of the last step"},
+    {"solver/determinant_tangent", "determinant of the Jacobian of the last step"},
+    {"solver/condition_inverse_mass", "condition number of the inverse mass matrix at the last step"}};
 
 /// Datasets of whole numbers that every run has.
 inline constexpr NamedColumn count_columns[] = {{"step", "steps since the start"},
@@ -32,8 +32,8 @@ inline constexpr NamedColumn count_columns[] = {{"step", "steps since the start"
 
 /// Range of H - H0 over the steps from one sample to the next, both included.
 inline constexpr NamedColumn energy_range_columns[] = {
-    {"energy_error_min", "least H - H0 at the end of a step since the sample before, both samples included"},
-    {"energy_error_max", "largest H - H0 at the end of a step since the sample before, both samples included"}};
+    {"energy_error_min", "smallest H - H0 of the steps since the previous sample, both samples included"},
+    {"energy_error_max", "largest H - H0 of the steps since the previous sample, both samples included"}};
 
 /// An invariant as a dataset.
 struct InvariantColumn {

@@ -57,7 +57,7 @@ Table samples_of(const RunDescription& run) {
   table.rename("samples");
   add_state(run, {"coordinates", "canonical momenta", ""}, table);
   const ColumnInfo energy =
-      one("energy", ValueType::number, "H(q, p); of H(q, p, t) less the integral of dH/dt, which is constant",
+      one("energy", ValueType::number, "H(q, p); for H(q, p, t) minus the integral of dH/dt, which makes it constant",
           run.units.energy);
   table.add(energy);
   for (const auto& [name, meaning] : energy_range_columns) {
@@ -105,9 +105,9 @@ Table bounces_of(const RunDescription& run) {
   table.rename("bounces");
   if (!run.walls) return table;
   add_state(run, meaning, table);
-  table.add(one("step", ValueType::integer, "at the end of which the bounce is behind"));
+  table.add(one("step", ValueType::integer, "number of steps taken when the step with the bounce ends"));
   table.add(one("coordinate", ValueType::integer, "column of q, from 0"));
-  table.add(one("side", ValueType::integer, "-1 the wall below, 1 that above"));
+  table.add(one("side", ValueType::integer, "-1: lower wall, 1: upper wall"));
   add_digits_and_time(run, meaning, table);
   return table;
 }
@@ -117,7 +117,7 @@ Table event_of(const RunDescription& run, const std::string& event) {
   Table table;
   table.rename(event);
   add_state(run, meaning, table);
-  table.add(one("step", ValueType::integer, "at the end of which the event is behind"));
+  table.add(one("step", ValueType::integer, "number of steps taken when the step with the event ends"));
   add_digits_and_time(run, meaning, table);
   return table;
 }

@@ -17,14 +17,14 @@ inline constexpr const char* max_iterations_option = "max_iterations";
 /// The number of Gauss points of elements. @param position among the options
 template <class Options>
 BoundOption<Options> quadrature_option(int position) {
-  return bind_number(
-      {.name = "quadrature",
-       .default_value = "auto",
-       .meaning =
-           "Gauss points, for cg at least its degree; auto: the fewest that keep the error of H at rounding level",
-       .range = Range::whole_from(1, 64),
-       .position = position},
-      &Options::quadrature, {{"auto", 0}});
+  return bind_number({.name = "quadrature",
+                      .default_value = "auto",
+                      .meaning = "number of Gauss points, for cg at least its degree; auto: the smallest number that "
+                                 "keeps the energy error at "
+                                 "rounding level",
+                      .range = Range::whole_from(1, 64),
+                      .position = position},
+                     &Options::quadrature, {{"auto", 0}});
 }
 
 /// The degree of polynomials in time, the first option by position.
@@ -48,7 +48,7 @@ template <class Options>
 void add_newton_options(BoundOptions<Options>& all) {
   all.push_back(
       bind_number({.name = tolerance_option,
-                   .meaning = "limit of the 2-norm of the residual; for cg(1) of the residual (2.63) of Gross1999",
+                   .meaning = "limit of the 2-norm of the residual (for cg(1), of the residual (2.63) of Gross1999)",
                    .range = Range::positive,
                    .unset = "the rounding level of the residual; 1e-13 with criterion seed",
                    .example = "1e-13"},
@@ -58,12 +58,13 @@ void add_newton_options(BoundOptions<Options>& all) {
                  .default_value = "stagnation",
                  .meaning = "seed: stagnation above the tolerance is an error, as in the programs of the thesis"},
                 &Options::seed_criterion, {{"stagnation", false}, {"seed", true}}));
-  all.push_back(bind_number({.name = max_iterations_option,
-                             .default_value = "15",
-                             .meaning = "corrections per attempt at a step; other initial guesses and half steps are "
-                                        "further attempts. The default is 100 for iterations other than newton",
-                             .range = Range::whole_from(1, 1000)},
-                            &Options::max_iterations));
+  all.push_back(
+      bind_number({.name = max_iterations_option,
+                   .default_value = "15",
+                   .meaning = "largest number of corrections per attempt at a step; other initial guesses and half "
+                              "steps are further attempts. The default is 100 for iterations other than newton",
+                   .range = Range::whole_from(1, 1000)},
+                  &Options::max_iterations));
   all.push_back(bind_word(
       {.name = iteration_option,
        .default_value = "newton",
@@ -84,7 +85,8 @@ void add_newton_options(BoundOptions<Options>& all) {
   all.push_back(bind_yes_no(
       {.name = diagnostics_option,
        .default_value = "false",
-       .meaning = "compute condition and determinant of the Jacobian, and condition of M^-1, at every step"},
+       .meaning = "compute the condition number and the determinant of the Jacobian, and the condition number of M^-1, "
+                  "at every step"},
       &Options::diagnostics));
 }
 

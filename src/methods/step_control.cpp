@@ -1,6 +1,7 @@
 #include "step_control.hpp"
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/socket.hpp"
 
 namespace hamflow {
 
@@ -10,12 +11,12 @@ const BoundOptions<StepControl>& control_options() {
   static const BoundOptions<StepControl> all{
       bind_word({.name = step_control_option,
                  .default_value = fixed_steps,
-                 .meaning = "reversible: steps of varying length, for symmetric methods; dt is the length of the first "
+                 .meaning = "reversible: steps of varying size, for symmetric methods; dt is the size of the first "
                             "step, and the time is part of the state"},
                 &StepControl::reversible, {{fixed_steps, false}, {reversible_steps, true}}),
       bind_word({.name = monitor_option,
                  .default_value = default_monitor,
-                 .meaning = "what controls the step length: arclength gives steps of equal length in phase space; "
+                 .meaning = "what controls the step size: arclength gives steps of equal length in phase space; "
                             "distance gives steps proportional to the power 3/2 of the distance to the centre or "
                             "between the two closest bodies (central-force, n-body, solar-system)",
                  .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps + "\""},
@@ -46,7 +47,7 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
     const auto monitor = method.options.find(monitor_option);
     if (monitor == method.options.end()) return std::nullopt;
     return RefusedOption{monitor_option, "found \"" + monitor->second +
-                                             "\" with steps of equal length, which have no monitor; allowed with " +
+                                             "\" with steps of equal size, which have no monitor; allowed with " +
                                              step_control_option + " = \"" + reversible_steps + "\""};
   }
   const MethodInfo info = entry.family->describe(entry.index, method.options);
@@ -57,7 +58,7 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
   }
   if (info.diagnostics) {
     return RefusedOption{step_control_option, std::string("found \"") + reversible_steps +
-                                                  "\" with diagnostics, which need steps of equal length; allowed " +
+                                                  "\" with diagnostics, which need steps of equal size; allowed " +
                                                   fixed_steps + ", or no diagnostics"};
   }
   return std::nullopt;
@@ -65,6 +66,10 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
 
 std::string refused_monitor(const MethodSpec& method, const ProblemEntry& problem) {
   const StepControl control = step_control_of(method);
+  if (control.reversible && problem.info.name == SocketKeys::problem) {
+    return std::string(step_control_option) + ": found \"" + reversible_steps + "\" for " + problem.info.name +
+           "; allowed " + fixed_steps + ", because monitors need second derivatives, which a client does not send";
+  }
   if (!control.reversible || control.monitor == default_monitor || problem.has_distance) return {};
   return std::string(monitor_option) + ": found \"" + control.monitor + "\" for " + problem.info.name +
          ", which has neither a centre nor bodies; allowed " + default_monitor +

@@ -1,4 +1,4 @@
-// The options for steps of varying length, of every family that does not control its steps itself.
+// The options for steps of varying size, of every family that does not control its steps itself.
 #pragma once
 
 #include <optional>

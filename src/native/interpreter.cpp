@@ -32,7 +32,8 @@ class Interpreter final : public StepLoop {
 
   std::int64_t take(std::span<double> carried, std::int64_t steps) const override {
     const std::size_t first = values_ + constants_.size();
-    std::vector<double> x(first + lines_.size() + values_);
+    thread_local std::vector<double> x;  // kept between calls, because a call of a few steps should not allocate
+    x.resize(std::max(x.size(), first + lines_.size() + values_));
     std::copy_n(carried.begin(), values_, x.begin());
     std::copy(constants_.begin(), constants_.end(), x.begin() + static_cast<std::ptrdiff_t>(values_));
     double* const results = x.data() + first;

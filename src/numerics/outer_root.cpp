@@ -107,7 +107,7 @@ OuterRoot settled(const std::function<double(double)>& f, const std::vector<Poin
     count += turns(points[k - 1], points[k], points[k + 1]) ? 1 : 0;
   }
   const auto last = outermost(f, x, one_sided(points, i), is_zero);
-  if (count >= too_many || !last) return {.x = std::nullopt, .told = false};
+  if (count >= too_many || !last) return {.x = std::nullopt, .is_decided = false};
   return {.x = last};
 }
 
@@ -127,9 +127,9 @@ OuterRoot outer_root(const std::function<double(double)>& f, bool largest, const
     if (i > 0 && i + 1 < points.size()) turned[i] = turns(points[i - 1], here, points[i + 1]);
     const auto end = turned.begin() + static_cast<std::ptrdiff_t>(i) + 1;
     const auto begin = end - static_cast<std::ptrdiff_t>(std::min(i + 1, window));
-    if (std::count(begin, end, true) >= too_many) return {.x = std::nullopt, .told = false};
+    if (std::count(begin, end, true) >= too_many) return {.x = std::nullopt, .is_decided = false};
     if (here.value == 0) {
-      if (i == 0) return {.x = std::nullopt, .told = false};
+      if (i == 0) return {.x = std::nullopt, .is_decided = false};
       return {.x = here.x};
     }
     if (i == 0) continue;

@@ -35,7 +35,8 @@ std::optional<R> quadratic_root(const R& a, const R& b, const R& c, const R& noi
 
 struct OuterRoot {
   std::optional<double> x{};  // nullopt if the search finds none
-  bool told = true;  // false: f oscillates or is 0 in the whole searched range, and no zero is known to be the last
+  bool is_decided =
+      true;  // false: f oscillates or is 0 in the whole searched range, and no zero is known to be the last
 };
 
 /// The largest or smallest zero of f in double that a search finds. f is evaluated at 0, at 128 points for each power

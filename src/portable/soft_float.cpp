@@ -26,6 +26,17 @@ template <class S>
 auto finer(const S& x) {
   return typename FinerOf<S>::type(x.template held<typename BoostOf<S>::type>());
 }
+/// The same for an angle. Boost's functions are wrong for large angles, so these are reduced by whole turns first. 1224
+/// binary digits are enough for all angles up to 2^1024, the range of a double.
+template <class S>
+auto finer_angle(const S& x) {
+  using Finer = typename FinerOf<S>::type;
+  using Exact = BoostFloat<1024 + 200, 16383>;
+  const Finer angle = finer(x);
+  if (!isfinite(angle) || abs(angle) < 1e15) return angle;
+  static const Exact whole_turn = 2 * boost::math::constants::pi<Exact>();
+  return Finer(fmod(Exact(angle), whole_turn));
+}
 template <class S>
 auto held(const S& x) {
   return x.template held<typename BoostOf<S>::type>();
@@ -81,29 +92,29 @@ HAMFLOW_OPERATOR(<)
 HAMFLOW_OPERATOR(<=)
 #undef HAMFLOW_OPERATOR
 
-#define HAMFLOW_FUNCTION(name)                                                                 \
+#define HAMFLOW_FUNCTION(name, argument)                                                       \
   HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x)->T { \
-    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(finer(x))));       \
+    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(argument(x))));    \
   }
-HAMFLOW_FUNCTION(exp)
-HAMFLOW_FUNCTION(log)
-HAMFLOW_FUNCTION(sin)
-HAMFLOW_FUNCTION(cos)
-HAMFLOW_FUNCTION(tan)
-HAMFLOW_FUNCTION(asin)
-HAMFLOW_FUNCTION(acos)
-HAMFLOW_FUNCTION(atan)
-HAMFLOW_FUNCTION(sinh)
-HAMFLOW_FUNCTION(cosh)
-HAMFLOW_FUNCTION(tanh)
+HAMFLOW_FUNCTION(exp, finer)
+HAMFLOW_FUNCTION(log, finer)
+HAMFLOW_FUNCTION(sin, finer_angle)
+HAMFLOW_FUNCTION(cos, finer_angle)
+HAMFLOW_FUNCTION(tan, finer_angle)
+HAMFLOW_FUNCTION(asin, finer)
+HAMFLOW_FUNCTION(acos, finer)
+HAMFLOW_FUNCTION(atan, finer)
+HAMFLOW_FUNCTION(sinh, finer)
+HAMFLOW_FUNCTION(cosh, finer)
+HAMFLOW_FUNCTION(tanh, finer)
 #undef HAMFLOW_FUNCTION
-#define HAMFLOW_FUNCTION(name)                                                                             \
-  HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::name(const T& x, const T& y)->T { \
-    return holding<T>(typename BoostOf<T>::type(boost::multiprecision::name(finer(x), finer(y))));         \
-  }
-HAMFLOW_FUNCTION(atan2)
-HAMFLOW_FUNCTION(pow)
-#undef HAMFLOW_FUNCTION
+HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::atan2(const T& y, const T& x) -> T {
+  if (!(x == x && y == y)) return nan();
+  return holding<T>(typename BoostOf<T>::type(boost::multiprecision::atan2(finer(y), finer(x))));
+}
+HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::pow(const T& x, const T& y) -> T {
+  return holding<T>(typename BoostOf<T>::type(boost::multiprecision::pow(finer(x), finer(y))));
+}
 HAMFLOW_SOFT auto ExtendedTraits<SoftFloat<binary, largest_exponent>>::abs(const T& x) -> T {
   return holding<T>(boost::multiprecision::abs(held(x)));
 }

@@ -206,11 +206,11 @@ ProblemEntry pendulum(int dimension, const std::string& form) {
     ChartOfAngles<Circle>::add_to(entry);
     entry.exact = exact_pendulum;
     info.region = {.centre = {0.9, 0.4, -0.2, 0.5}, .spread = 0.15, .time = 2.5};
-    info.example = {.q = {0.6, -0.8}, .p = {0.8, 0.6}, .dt = 0.05};
+    info.example = {.q = {0.6, -0.8}, .p = {0.8, 0.6}, .dt = 0.02};
   } else {
     info.invariants = {{"angular_momentum", "x p_y - y p_x, about the vertical", Components::one, Terms::moments}};
     info.region = {.centre = {0.8, 0.1, -0.6, -0.2, 0.7, 0.3}, .spread = 0.15, .time = 2.5};
-    info.example = {.q = {0.6, 0, -0.8}, .p = {0.4, 0.9, 0.3}, .dt = 0.05};
+    info.example = {.q = {0.6, 0, -0.8}, .p = {0.4, 0.9, 0.3}, .dt = 0.02};
   }
   return entry;
 }

@@ -257,7 +257,7 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.has_distance = field.has_value();
   e.refused_size = [model](const Texts&, std::size_t size) { return refused_size(model, size); };
   e.refused_parameters = [](const Texts&) { return std::pair<std::string, std::string>(); };
-  e.refused_start = [](const Texts&, const std::vector<double>&) { return std::string(); };
+  e.refused_start = [](const Texts&, const std::vector<double>&) { return StartRefusal(); };
   e.accepts = [model](const MethodSpec& method) { return accepts(model.structure(), method); };
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
   e.simulate_erased = [typed](const Request& request) -> std::unique_ptr<Simulation> {
@@ -322,13 +322,13 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
           .as<Capability::constrained | Capability::separable | Capability::quadratic_kinetic>();
     };
     e.constraint_form = model.structure().multiplier ? FormulaKeys::multiplier : FormulaKeys::manifold;
-    e.refused_start = [bound, degrees](const Texts& parameters, const std::vector<double>& q) -> std::string {
+    e.refused_start = [bound, degrees](const Texts& parameters, const std::vector<double>& q) -> StartRefusal {
       const auto rows = constraint_gradients(bound(parameters), vector_of(q, degrees));
       if (!are_linearly_dependent(rows)) return {};
-      return rows.size() == 1 ? "a constraint whose gradient vanishes at the start; allowed a constraint with a "
-                                "gradient other than 0 there"
-                              : "constraints whose gradients are linearly dependent at the start; allowed independent "
-                                "constraints, fewer than coordinates";
+      return {rows.size() == 1 ? "a constraint whose gradient vanishes at the start; allowed a constraint with a "
+                                 "gradient other than 0 there"
+                               : "constraints whose gradients are linearly dependent at the start; allowed "
+                                 "independent constraints, fewer than coordinates"};
     };
     e.residuals = [bound, degrees](const Texts& parameters, const std::vector<double>& q,
                                    const std::vector<double>& p) {

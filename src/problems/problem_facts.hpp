@@ -31,9 +31,9 @@ class ProblemFacts : ProblemStart<Family> {
         return {};
       }
     };
-    e.refused_start = [](const Texts& parameters, const std::vector<double>& q) -> std::string {
+    e.refused_start = [](const Texts& parameters, const std::vector<double>& q) -> StartRefusal {
       if constexpr (HasRefusedStart<P>) {
-        return P::refused_start(Parameters<double>(parameters), vector_of(q));
+        return {P::refused_start(Parameters<double>(parameters), vector_of(q))};
       } else {
         return {};
       }

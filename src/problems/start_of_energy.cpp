@@ -101,7 +101,7 @@ R component_for_energy(const EnergyLine<R>& without_walls, const Request& reques
   const auto above = [&](double x) { return static_cast<double>(line.energy(R(x)) - level); };
   const auto refined = [&](double x) { return refined_root<R>([&](const R& y) { return line.energy(y) - level; }, x); };
   const OuterRoot outer = outer_root(above, largest, [&](double x) { return has_energy(refined(x)); });
-  if (!outer.told) {
+  if (!outer.is_decided) {
     throw NoStart(std::string("no ") + (largest ? "largest" : "smallest") + " root along " + open +
                   " was found: H oscillates, or equals the energy, in the whole range that was searched; give " + open +
                   " as a number");

@@ -106,8 +106,8 @@ std::shared_ptr<const ProblemEntry> in_coordinates(const std::shared_ptr<const P
         problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
     // a variant with a single chart, in space
     if (charts != charted_problems().end() && problem.info.chart_key.empty()) {
-      const auto told = [](const auto& choice) { return choice.first + " = " + choice.second; };
-      throw Error("found " + problem.info.name + " with " + joined(problem.info.variant, told) +
+      const auto text_of = [](const auto& choice) { return choice.first + " = " + choice.second; };
+      throw Error("found " + problem.info.name + " with " + joined(problem.info.variant, text_of) +
                   ", which has only the coordinates " + joined(problem.info.coordinates) + "; allowed: " + allowed);
     }
     if (charts == charted_problems().end() && !problem.structure) {

@@ -63,7 +63,7 @@ bool same_option(const OptionInfo& a, const OptionInfo& b) {
 }
 
 namespace {
-/// Returns whether [method] has a monitor for steps of varying length, although --set asks for equal steps, which do
+/// Returns whether [method] has a monitor for steps of varying size, although --set asks for equal steps, which do
 /// not use it.
 bool has_replaced_monitor(const toml::table& method, const Texts& options_of_set_name) {
   if (!method.contains(monitor_option)) return false;
@@ -152,7 +152,7 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
     if (key == diagnostics_option) return "a comparison does not show it, and it takes time";
     if (key == tolerance_option && describe(own).own_substeps) return in_its_rows;
     if (!contains(replaced, key)) return "";
-    return key == monitor_option ? "steps of equal length have no monitor" : "it has another meaning there";
+    return key == monitor_option ? "steps of equal size have no monitor" : "it has another meaning there";
   };
   for (const auto& [path, setting] : impl_->settings) {
     const std::string head = "method.";

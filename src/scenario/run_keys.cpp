@@ -4,6 +4,7 @@
 
 #include "figure_kinds.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/socket.hpp"
 
 namespace hamflow {
 
@@ -17,8 +18,8 @@ const LatticeKeys& lattice_keys() {
       .momentum = {.name = "momentum",
                    .meaning = "spacing of momenta, a power of two from 2^-1000 to 2^999",
                    .range = Range::positive,
-                   .unset = "2^-52 of the largest momentum at the start; for attracting bodies of the largest expected "
-                            "momentum; larger for a gas of more than 1023 particles",
+                   .unset = "2^-52 of the largest momentum at the start (for attracting bodies, of the largest "
+                            "expected momentum); larger for a gas of more than 1023 particles",
                    .example = "2^-52"}};
   return keys;
 }
@@ -160,7 +161,7 @@ const RunKeys& run_keys() {
               .meaning = "treat the method as a map, not as an approximation of a flow: no warnings, certificate or "
                          "energy scale; sections, events and Lyapunov exponents count steps instead of time",
               .type = OptionType::yes_no,
-              .condition = "with steps of one length and without record",
+              .condition = "with steps of equal size and without record",
               .example = "true"},
       .certificate = {.name = "certificate",
                       .default_value = "true",
@@ -197,7 +198,15 @@ const OutputKeys& output_keys() {
                                                           "recorded with every sample and averaged over every step",
                                                .type = OptionType::table,
                                                .unset = "none",
-                                               .example = "{ square = \"q1^2\" }"}};
+                                               .example = "{ square = \"q1^2\" }"},
+                               .elements = {.name = "elements",
+                                            .meaning = "orbital elements of bodies, recorded with every sample as "
+                                                       "Jupiter.a, Jupiter.e, ...: about the centre of mass of the "
+                                                       "bodies before each (jacobi), of all (barycentre), or a body",
+                                            .type = OptionType::text,
+                                            .unset = "none",
+                                            .condition = "for n-body and solar-system",
+                                            .example = "jacobi"}};
   return keys;
 }
 
@@ -209,7 +218,7 @@ const std::vector<DeclaredTable>& declared_tables() {
         {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
           r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.lattice, r.threads}},
-        {output_table, {o.folder, o.formats, o.figures, o.observables}}};
+        {output_table, {o.folder, o.formats, o.figures, o.observables, o.elements}}};
   }();
   return tables;
 }
@@ -220,11 +229,14 @@ const DeclaredTable& declared_table(const std::string& name) {
 }
 
 bool is_free_on_resume(const std::string& path) {
-  return std::any_of(declared_tables().begin(), declared_tables().end(), [&](const DeclaredTable& table) {
-    return std::any_of(table.keys.begin(), table.keys.end(), [&](const OptionInfo& key) {
-      return key.free_on_resume && path == table.name + "." + key.name;
-    });
-  });
+  return std::any_of(declared_tables().begin(), declared_tables().end(),
+                     [&](const DeclaredTable& table) {
+                       return std::any_of(table.keys.begin(), table.keys.end(), [&](const OptionInfo& key) {
+                         return key.free_on_resume && path == table.name + "." + key.name;
+                       });
+                     }) ||
+         std::any_of(socket_options().begin(), socket_options().end(),
+                     [&](const OptionInfo& key) { return key.free_on_resume && path == "problem." + key.name; });
 }
 
 }  // namespace hamflow

@@ -28,7 +28,7 @@ struct RunKeys {
       eigenvalues, section, events, record_events, map, certificate;
 };
 struct OutputKeys {
-  OptionInfo folder, formats, figures, observables;
+  OptionInfo folder, formats, figures, observables, elements;
 };
 
 const LatticeKeys& lattice_keys();

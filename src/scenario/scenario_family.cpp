@@ -82,7 +82,12 @@ std::string scenario_text(const std::string& file) {
   if (!in) throw FileError("cannot read the scenario " + file + ": " + std::strerror(errno));
   std::ostringstream text;
   text << in.rdbuf();
-  return text.str();
+  std::string found = text.str();
+  if (found.starts_with("\x89HDF\r\n")) {
+    throw FileError("cannot read the scenario " + file +
+                    ": found an HDF5 file, the data of a run or sweep; allowed a TOML file");
+  }
+  return found;
 }
 
 }  // namespace hamflow

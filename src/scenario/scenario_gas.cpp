@@ -420,42 +420,17 @@ bool ScenarioReader::check_masses(TomlTable& table) {
   return false;
 }
 
-namespace {
-
-/// Returns the numbers of the particles at the beginning of a message: "particles 1 and 3 at", "particle 2 at", "y2 = 1
-/// beyond".
-std::vector<std::size_t> particles_of(const std::string& why) {
-  const std::size_t end = std::min({why.find(" at "), why.find(" = "), why.size()});
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < end; ++i) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(why[i])) != 0;
-    if (!digit) continue;
-    std::size_t length = 0;
-    all.push_back(std::stoull(why.substr(i), &length));
-    i += length;
-  }
-  return all;
-}
-
-/// Returns the key of the container or wall that a message about a particle refers to; empty if there is none.
-std::string key_of_edge(const std::string& why, bool has_walls) {
-  const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
-  const GasOptions& gas = gas_options();
-  const std::string inside = gas.container.name + ".";
-  if (tells(" from the origin, on or beyond the soft wall")) return inside + gas.of_container.radius.name;
-  if (tells(" beyond the wall at ")) return has_walls ? wall_keys().walls.name : inside + gas.of_container.size.name;
-  return tells(" at images of the same point") ? inside + gas.of_container.size.name : "";
-}
-
-}  // namespace
-
 /// Complains at the key that gives the start of the particles. For a CSV file it adds the lines of the particles in the
 /// message.
-void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& usual, std::string message) {
+void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& usual, const StartRefusal& refusal) {
   const GasOptions& gas = gas_options();
   // The container is the cause if the start is generated, or if --set only changed the container.
   const std::string start = table.has("initial") ? "initial" : gas.start.name;
-  const std::string edge = key_of_edge(message, table.has(wall_keys().walls.name));
+  std::string message = "found " + refusal.message;
+  // A gas has the walls of its container, or those of the scenario.
+  const bool is_of_scenario = refusal.key == wall_keys().walls.name && table.has(refusal.key);
+  const std::string size = refusal.key == wall_keys().walls.name ? gas.of_container.size.name : refusal.key;
+  const std::string edge = refusal.key.empty() || is_of_scenario ? refusal.key : gas.container.name + "." + size;
   const std::string holder = edge.substr(0, edge.find('.'));
   const auto is_outside = [&](const std::string& key) { return table.has(key) && touched(*table.node().get(key)); };
   if (!edge.empty() && (!table.has(start) || (is_outside(holder) && !is_outside(start)))) {
@@ -464,7 +439,7 @@ void ScenarioReader::complain_of_particles(TomlTable& table, const std::string& 
   if (table.has("initial")) return table.complain(usual, message);
   if (table.plain_string(gas.start.name) != GasStarts::file) return table.complain(gas.start.name, message);
   std::vector<std::string> lines;
-  for (const std::size_t particle : particles_of(message)) {
+  for (const std::size_t particle : refusal.particles) {
     if (particle > 0 && particle <= start_lines_.size()) lines.push_back(std::to_string(start_lines_[particle - 1]));
   }
   if (!lines.empty()) {
@@ -498,9 +473,9 @@ void ScenarioReader::round_edges(TomlTable& table) {
     const double rounded = std::nearbyint(edge / unit) * unit;
     const double by = std::abs(rounded - edge);
     if (rounded == 0) {
-      complain("found a unit of " + shortest(unit) + (given ? "" : ", the default for this start,") +
+      complain("found the grid spacing " + shortest(unit) + (given ? "" : ", the default for this start,") +
                " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
-               " units and would be rounded to 0; allowed units far below the edges, such as \"2^-52\"");
+               " spacings and would be rounded to 0; allowed spacings far below the edges, such as \"2^-52\"");
       return;
     }
     moved = std::max(moved, by);
@@ -510,12 +485,12 @@ void ScenarioReader::round_edges(TomlTable& table) {
   Texts parameters = request.parameters;
   parameters[GasKeys::size] = "[" + joined(edges) + "]";
   if (const auto [wrong, message] = refused(parameters); !message.empty()) {
-    complain("found a unit of " + shortest(unit) + ", which rounds the edges to " + joined(edges) +
+    complain("found the grid spacing " + shortest(unit) + ", which rounds the edges to " + joined(edges) +
              ", too short for problem." + wrong + " = " + request.parameters.at(GasKeys::cutoff) + "; " + message);
     return;
   }
   request.parameters = std::move(parameters);
-  scenario_.notes.push_back("the edges of the periodic box are rounded to whole units of the lattice, by up to " +
+  scenario_.notes.push_back("the edges of the periodic box are rounded to whole grid spacings, by up to " +
                             shortest(moved));
 }
 

@@ -84,7 +84,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     read_unit(lattice_keys().momentum, scenario_.request.momentum_unit);
     lattice.finish();
     if (!on_lattice) {
-      table.complain(key, "found units for arithmetic \"" + scenario_.request.arithmetic +
+      table.complain(key, "found grid spacings with arithmetic \"" + scenario_.request.arithmetic +
                               "\"; allowed with arithmetic = \"lattice\"");
     }
   } else {
@@ -115,12 +115,14 @@ void ScenarioReader::read_lattice(TomlTable& table) {
   const auto check = [&](const char* what, double largest, double unit) {
     if (largest > 0 && largest < unit) {
       table.complain(key, std::string("found ") + what + " of at most " + shortest(largest) +
-                              " at the start, but a unit of " + shortest(unit) + "; allowed much smaller units");
+                              " at the start, but the grid spacing " + shortest(unit) +
+                              "; allowed a much smaller spacing");
       return;
     }
     if (largest < unit * 0x1p62) return;
-    table.complain(key, std::string("found ") + what + " up to " + shortest(largest) + " at the start, but a unit of " +
-                            shortest(unit) + "; allowed less than 2^62 units; choose a larger power of two");
+    table.complain(key, std::string("found ") + what + " up to " + shortest(largest) +
+                            " at the start, but the grid spacing " + shortest(unit) +
+                            "; allowed less than 2^62 grid spacings; choose a larger power of two");
   };
   check("positions", reach(scenario_.start_q), scenario_.request.position_unit);
   check("momenta", reach(scenario_.start_p), scenario_.request.momentum_unit);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
@@ -60,6 +61,10 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
                             "\"; allowed with " + arithmetic.name + " = \"" + arithmetic.default_value +
                             "\", because steps are differentiated only in double");
   }
+  if (scenario_.request.problem == SocketKeys::problem) {
+    table.complain(key, table.found(key) + "; allowed for problems other than " + SocketKeys::problem +
+                            ", because a client sends no second derivatives");
+  }
   if (has_method() && describe(scenario_.request.method).halves_steps) {
     table.complain(key, table.found(key) +
                             " with a method that halves steps which do not converge; allowed without halving, because "
@@ -73,7 +78,7 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
   }
   if (has_method() && describe(scenario_.request.method).varies_steps) {
     table.complain(key, table.found(key) +
-                            " with steps of varying length; allowed with step_control = \"fixed\", because step "
+                            " with steps of varying size; allowed with step_control = \"fixed\", because step "
                             "lengths that depend on the state are not differentiated");
   }
   if (scenario_.problem != nullptr && !scenario_.problem->constraint_form.empty()) {

@@ -22,7 +22,7 @@ void ScenarioReader::read_method(TomlTable& table) {
   for (const std::string& key : dropped) {
     table.know(key);
     if (key == monitor_option && find_option(find_method(spec.name).family->options, key) != nullptr) {
-      scenario_.notes.push_back(table.full(key) + " is not used: steps of equal length have no monitor");
+      scenario_.notes.push_back(table.full(key) + " is not used: steps of equal size have no monitor");
       continue;
     }
     scenario_.notes.push_back(

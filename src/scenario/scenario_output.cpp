@@ -19,6 +19,7 @@ void ScenarioReader::read_output(TomlTable& table) {
     table.complain(key, "found figures without the format h5, which they need; allowed with formats = [\"h5\", ...]");
   }
   read_observables(table);
+  read_elements(table);
   const FigureFacts facts = scenario_.figures.empty() ? FigureFacts() : figure_facts();
   for (const std::string& kind : scenario_.figures) {
     const std::string why_not = refused_figure(kind, facts);

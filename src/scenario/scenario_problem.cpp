@@ -1,7 +1,9 @@
 // Reads [problem]: the choice of the problem and its parameters.
 #include <algorithm>
 
+#include "hamflow/detail/problems/body_keys.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/socket.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
 #include "suggested_names.hpp"
@@ -104,13 +106,22 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const std::shared_ptr<const ProblemEntry> listed = find_problem(*name, {});
   const bool typed = listed->structure || has_typed_choice(table, listed->info);
   const bool particles = static_cast<bool>(listed->particles);
-  particles ? read_gas(table) : typed ? read_typed_problem(table, *listed) : read_variant(table, *name);
+  if (particles) {
+    read_gas(table);
+  } else if (typed) {
+    read_typed_problem(table, *listed);
+  } else if (*name == SocketKeys::problem) {
+    read_address(table);
+  } else {
+    read_variant(table, *name);
+  }
   if (scenario_.problem == nullptr) {
     if (!particles) read_without_variant(table, *name);  // read_gas() has reported all errors of a gas
     return;
   }
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
+  if (takes_body_list(info)) read_body_list(table);
   for (const ParameterInfo& parameter : info.parameters) {
     if (scenario_.request.parameters.contains(parameter.name)) continue;  // already read together with the entry
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
@@ -140,6 +151,19 @@ void ScenarioReader::read_problem(TomlTable& table) {
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);
+}
+
+/// Reads the address, which chooses the entry of the problem `socket`.
+void ScenarioReader::read_address(TomlTable& table) {
+  const OptionInfo& key = *find_option(socket_options(), SocketKeys::address);
+  const auto address = table.text(key);
+  if (!address) return;
+  if (const std::string why_not = refused_address(*address); !why_not.empty()) {
+    table.complain(key.name, why_not);
+    return;
+  }
+  scenario_.request.variant[key.name] = *address;
+  scenario_.problem = find_problem(scenario_.request.problem, scenario_.request.variant);
 }
 
 void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {

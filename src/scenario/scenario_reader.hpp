@@ -1,6 +1,7 @@
 // Reads a parsed document table by table into a scenario.
 #pragma once
 
+#include "body_list.hpp"
 #include "gas_start.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/walls.hpp"
@@ -52,6 +53,8 @@ class ScenarioReader {
     check_walls();
     check_gas();
     check_method_for_size(method);
+    check_massless(method, run);
+    check_kepler_splitting(method);
     read_output(output);
     root_.finish();
     return std::move(scenario_);
@@ -71,6 +74,7 @@ class ScenarioReader {
   void read_problem(TomlTable& table);
   void read_without_variant(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
+  void read_address(TomlTable& table);
   static std::vector<std::string> choices_of_key(const std::string& name, const std::string& key);
   void read_typed_problem(TomlTable& table, const ProblemEntry& listed);
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
@@ -94,6 +98,14 @@ class ScenarioReader {
   void read_orbit(TomlTable& table);
   void refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because);
   void read_bodies(TomlTable& table);
+  void read_units(TomlTable& table);
+  void read_body_list(TomlTable& table);
+  void check_space(std::vector<TomlTable>& tables);
+  void check_barycentre(std::vector<TomlTable>& tables);
+  void check_places(TomlTable& table);
+  void check_kepler_splitting(TomlTable& method);
+  void check_massless(TomlTable& method, TomlTable& run);
+  void place_bodies(TomlTable& table, const std::string& arithmetic);
   bool check_masses(TomlTable& table);
   bool check_size(TomlTable& table);
   void read_initial(TomlTable& table);
@@ -103,8 +115,8 @@ class ScenarioReader {
   void check_walls();
   bool complain_of_soft_walls();
   void check_start(TomlTable& table);
-  void complain_of_start(TomlTable& table, const std::string& usual, const std::string& message);
-  void complain_of_particles(TomlTable& table, const std::string& usual, std::string message);
+  void complain_of_start(TomlTable& table, const std::string& usual, const StartRefusal& refusal);
+  void complain_of_particles(TomlTable& table, const std::string& usual, const StartRefusal& refusal);
   bool check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
@@ -127,6 +139,7 @@ class ScenarioReader {
   ExpressionInDigits in_digits(const StateExpression& expression) const;
   std::optional<StateExpression> read_changing_expression(TomlTable& table, const OptionInfo& key);
   void read_observables(TomlTable& table);
+  void read_elements(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
   void round_edges(TomlTable& table);
@@ -143,6 +156,7 @@ class ScenarioReader {
   std::string driven_hamiltonian_;        // text of H(q, p, t); empty if H does not depend on t
   std::vector<std::size_t> start_lines_;  // lines of the particles in the CSV file of a gas
   StartSpec start_of_bodies_;             // start as expressions that every arithmetic evaluates with all its digits
+  BodyList body_list_;                    // bodies of n-body
   Scenario scenario_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/run/socket.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -44,7 +45,7 @@ void ScenarioReader::read_map(TomlTable& table) {
   scenario_.map = table.yes_no(keys.map).value_or(false);
   if (!scenario_.map) return;
   if (has_method() && describe(scenario_.request.method).varies_steps) {
-    table.complain(keys.map.name, table.found(keys.map.name) + " with steps of varying length; allowed with " +
+    table.complain(keys.map.name, table.found(keys.map.name) + " with steps of varying size; allowed with " +
                                       "step_control = \"fixed\", because all steps of a map are equal");
   }
   if (table.has(keys.record.name)) {
@@ -78,10 +79,16 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     return;
   }
   scenario_.request.arithmetic = *name;
+  if (scenario_.request.problem == SocketKeys::problem && digits_beyond_double(*name) > 0) {
+    table.complain(key.name,
+                   table.found(key.name) +
+                       "; allowed double, compensated or lattice, because a client sends its forces in double");
+  }
   if (scenario_.bodies && digits_beyond_double(*name) > 0) {
     scenario_.request.start.q = start_of_bodies_.q;
     scenario_.request.start.p = start_of_bodies_.p;
   }
+  if (digits_beyond_double(*name) > 0) place_bodies(table, *name);
   const std::string why_not =
       has_method() ? refusal_with_advice(scenario_.request.method, scenario_.problem.get(), *name) : "";
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
@@ -92,7 +99,7 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
 bool ScenarioReader::refuse_time(TomlTable& table, const std::string& key, const std::string& allowed) {
   if (!table.has(key) || !has_method() || !describe(scenario_.request.method).varies_steps) return false;
   table.complain(key, table.found(key) + " with " + describe(scenario_.request.method).name + "; allowed " + allowed +
-                          ", because steps of varying length do not end at a given time");
+                          ", because steps of varying size do not end at a given time");
   return true;
 }
 

@@ -205,7 +205,9 @@ void ScenarioReader::read_frame(TomlTable& table) {
   const OptionInfo& key = scenario_.problem->info.frame;
   if (key.name.empty()) return;
   const auto frame = table.text(key);
-  const std::string usual = table.has("initial") ? StartFrames::given : key.default_value;
+  const std::string usual = table.has("initial")  ? StartFrames::given
+                            : table.has("bodies") ? StartFrames::barycentric
+                                                  : key.default_value;
   scenario_.request.start.barycentric = frame.value_or(usual) == StartFrames::barycentric;
 }
 
@@ -254,9 +256,10 @@ void ScenarioReader::check_start(TomlTable& table) {
       const bool in_orbit = inside.starts_with("orbit.");
       TomlTable at = in_orbit ? table.table("orbit") : table;
       const std::string key = in_orbit ? inside.substr(6) : inside;
+      const double excess = condition.left - condition.right;
       at.complain(key, at.found(key) + "; allowed " + condition.statement + ", but " + shortest(condition.left) +
-                           (condition.strict ? " >= " : " > ") + shortest(condition.right) + ", exceeded by " +
-                           shortest(condition.left - condition.right));
+                           (condition.strict ? " >= " : " > ") + shortest(condition.right) +
+                           (excess > 0 ? ", exceeded by " + shortest(excess) : ""));
     }
   }
   if (!possible) return;
@@ -299,10 +302,8 @@ void ScenarioReader::check_start(TomlTable& table) {
   }
   // The other checks need a start that satisfies the constraints.
   if (problem.residuals && !check_constraints(table, start)) return;
-  const std::string why_not = problem.refused_start(request.parameters, start.q);
-  if (!why_not.empty()) {
-    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial",
-                      "found " + why_not);
+  if (const StartRefusal refusal = problem.refused_start(request.parameters, start.q); !refusal.message.empty()) {
+    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", refusal);
     return;
   }
   const bool unsolved = std::any_of(start.p.begin(), start.p.end(), [](double p) { return !std::isfinite(p); });
@@ -315,7 +316,7 @@ void ScenarioReader::check_start(TomlTable& table) {
   if (!problem.regular(request.parameters, start.q, start.p)) {
     complain_of_start(
         table, geometric ? "orbit" : "initial",
-        "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
+        {"a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula});
     return;
   }
 }
@@ -347,8 +348,9 @@ std::string largest_of(const Request& request, const Frame& at, double sum, cons
 }  // namespace
 
 /// Complains at the key that gives the start.
-void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& message) {
-  scenario_.problem->particles ? complain_of_particles(table, usual, message) : table.complain(usual, message);
+void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const StartRefusal& refusal) {
+  scenario_.problem->particles ? complain_of_particles(table, usual, refusal)
+                               : table.complain(usual, "found " + refusal.message);
 }
 
 /// Checks that the start lies on the constraints and its velocity is tangent to them.

@@ -4,6 +4,7 @@
 
 #include "gas/container.hpp"
 #include "hamflow/detail/run/fitting_methods.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 #include "wall_checks.hpp"
@@ -68,6 +69,11 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const bool fixed = !info.walls.empty();
   table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
   const std::size_t before = complaints_.size();
+  if (info.name == SocketKeys::problem && table.has_any(keys.walls.name)) {
+    table.complain(keys.walls.name,
+                   "found walls; allowed without walls for " + info.name + ", whose client computes all forces");
+    return;
+  }
   if (!fixed && !scenario_.problem->constraint_form.empty() && table.has_any(keys.walls.name)) {
     table.complain(keys.walls.name,
                    "found walls together with constraints, which are not supported; allowed in coordinates without "
@@ -164,7 +170,7 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
     const std::string soft = rules_taken(request, problem, *walls, {WallRule::soft});
-    return "with steps of varying length, which cannot be cut at a wall; allowed " + soft +
+    return "with steps of varying size, which cannot be cut at a wall; allowed " + soft +
            (soft.empty() ? "" : ", or ") + "step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {
@@ -257,8 +263,8 @@ void ScenarioReader::check_walls() {
       if (std::abs(at) > 0x1p51 * unit) {
         int power = 0;  // exponent of the finest spacing that suffices for every wall
         if (std::frexp(furthest, &power) == 0.5) --power;
-        refuse("with a wall at " + text + " and a unit of " + shortest(unit) +
-               "; allowed walls within 2^51 units, so that positions behind them are exact in double, e.g. "
+        refuse("with a wall at " + text + " and the grid spacing " + shortest(unit) +
+               "; allowed walls within 2^51 spacings, so that positions behind them are exact in double, e.g. "
                "run.lattice = { position = \"2^" +
                std::to_string(power - 51) + "\" }");
         return;
@@ -267,13 +273,12 @@ void ScenarioReader::check_walls() {
       if (moved == 0) continue;
       most = std::max(most, std::abs(moved));
       notes.push_back("the wall of " + wall.coordinate + " at " + text + " is moved by " + shortest(moved) +
-                      " to a multiple of half a unit of the lattice");
+                      " to a multiple of half a grid spacing");
     }
   }
   if (notes.empty()) return;
   if (scenario_.problem->particles) {  // one note, because all particles have the same walls
-    notes = {"the walls of the box are moved by up to " + shortest(most) +
-             " to multiples of half a unit of the lattice"};
+    notes = {"the walls of the box are moved by up to " + shortest(most) + " to multiples of half a grid spacing"};
   }
   scenario_.notes.insert(scenario_.notes.end(), notes.begin(), notes.end());
 }

@@ -2,9 +2,11 @@
 // double have a separate file with light optimisation, because only few of their steps run as compiled code.
 #pragma once
 
+#include "engine/corrected_simulation.hpp"
 #include "engine/interruptible_functions.hpp"
 #include "engine/iterated_simulation.hpp"
 #include "engine/iteration_recorder.hpp"
+#include "engine/planetary_steps.hpp"
 #include "engine/recorded_simulation.hpp"
 #include "engine/varying_steps.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
@@ -39,7 +41,7 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe) {
   };
 }
 
-/// Whether a method supports recorded steps of varying length.
+/// Whether a method supports recorded steps of varying size.
 template <class P, class A, class M>
 constexpr bool takes_recorded_lengths = requires(typename M::template Stepper<P, A>& stepper, const P& problem,
                                                  const Trace<double>& h, PhasePoint<A, dynamic>& z) {
@@ -64,7 +66,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   }
 }
 
-/// Records steps of varying length, for methods that support them and natural Hamiltonians; else empty.
+/// Records steps of varying size, for methods that support them and natural Hamiltonians; else empty.
 template <Capability c, class A, class M>
 StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, const Request& request) {
   using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
@@ -129,6 +131,13 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
               iteration_recorder(run.functions, c, recipe.options), stage_recorder(run.functions, c, recipe.options),
               request.record));
+        } else if constexpr (EncounterWatcher<decltype(method)>) {
+          if (method.has_corrector()) {
+            return std::make_unique<CorrectedSimulation<P, decltype(method), A>>(problem, method, run.q, run.p, run.h,
+                                                                                 arithmetic);
+          }
+          return requested(
+              std::make_unique<PlanetarySimulation<Parted>>(problem, method, run.q, run.p, run.h, arithmetic));
         } else {
           return requested(std::make_unique<Parted>(problem, method, run.q, run.p, run.h, arithmetic));
         }

@@ -26,9 +26,10 @@ class MemberReader {
     for (std::size_t key = 0; key < varied_.size(); ++key) {
       if (std::string why = varied_.without_start(member, key); !why.empty()) {
         no_start = std::move(why);
-        if (!placeholder_)
-          placeholder_ = family_.add_value("1");  // the formula has no value here; 1 is read in its place
-        values.push_back(*placeholder_);
+        // The formula has no value for this member, which is not run. Reading it with the number 1 checks its other
+        // keys.
+        if (!stand_in_) stand_in_ = family_.add_value("1");
+        values.push_back(*stand_in_);
       } else {
         values.push_back(value_of(member, key));
       }
@@ -68,7 +69,7 @@ class MemberReader {
   std::vector<std::string> paths_;
   ScenarioFamily family_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers_;
-  std::optional<std::size_t> placeholder_;
+  std::optional<std::size_t> stand_in_;  // the number of the value 1
 };
 
 }  // namespace hamflow

@@ -378,7 +378,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   RunCertificate found;
   found.typically_exchanged = blocks.state().exchange.typical();
   const double scale = simulation.energy_scale();
-  const RunEnds ends = ends_of(request, simulation);
+  const RunEnds ends = problem.energy ? ends_of(request, simulation) : RunEnds{};
   // A constant in H must not change the class, because it does not change the motion.
   const double exchanged = found.typically_exchanged.value_or(0);
   const bool is_motion = simulation.energy().max_error < exchanged && std::isfinite(exchanged);

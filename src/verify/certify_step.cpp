@@ -48,7 +48,7 @@ struct StepDefect {
   double error = 0;
   double noise = 0;  // the part of the error that is not a smooth function of h
   bool is_smooth() const { return noise <= smooth; }
-  bool is_told() const { return is_smooth() && error >= least_error_over_rounding * rounding; }
+  bool is_decided() const { return is_smooth() && error >= least_error_over_rounding * rounding; }
   bool is_kept() const { return defect <= 4 * rounding; }
   bool is_violated() const { return defect > 32 * rounding && defect > largest_solver_share * error; }
 };
@@ -78,17 +78,17 @@ std::string why_undecided(const std::vector<StepDefect>& votes) {
         "noise",
         vote.h, vote.error, 100 * std::min(vote.noise, 1.0));
   }
-  const auto told = std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_told(); });
-  if (told == 0) {
+  const auto decided =
+      std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_decided(); });
+  if (decided == 0) {
     return fmt::format(
         "the step is not a smooth function of q and p: its derivatives by differences are uncertain by {:.1e} with "
         "h = {:.3g}, where the error of the step is {:.1e}",
         last.rounding, last.h, last.error);
   }
   return fmt::format(
-      "only with h = {:.3g}, where the error of the step is {:.1e}, the error is well above rounding; at least two "
-      "step "
-      "sizes are needed",
+      "the error of the step is well above rounding only with h = {:.3g}, where it is {:.1e}; at least two step sizes "
+      "are needed",
       last.h, last.error);
 }
 PropertyVerdict verdict_of(const std::vector<StepDefect>& votes, const std::string& property) {
@@ -102,7 +102,7 @@ PropertyVerdict verdict_of(const std::vector<StepDefect>& votes, const std::stri
     }
     if (!vote.is_kept()) {
       between = &vote;
-    } else if (vote.is_told()) {
+    } else if (vote.is_decided()) {
       ++kept;
     }
     is_exact = is_exact && vote.is_kept() && vote.error <= exact_to_rounding;
@@ -381,11 +381,10 @@ class StepExamination {
         reasons_.push_back("order: every step is exact to rounding");
         return;
       }
-      reasons_.push_back(
-          fmt::format("order undecided: only with {} step sizes the error is a smooth function of h and below the size "
-                      "of the state; a "
-                      "slope needs {}{}",
-                      points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
+      reasons_.push_back(fmt::format(
+          "order undecided: {} of the step sizes give an error that is a smooth function of h and below the "
+          "size of the state; a slope needs {}{}",
+          points.size(), fewest, failure_.empty() ? "" : "; " + failure_));
       return;
     }
     std::vector<std::size_t> ends;
@@ -598,7 +597,7 @@ class StepExamination {
     std::vector<std::vector<StepDefect>> kept(names().size());
     const auto is_done = [](const std::vector<StepDefect>& votes) {
       return std::any_of(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_violated(); }) ||
-             std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_told(); }) >= 2;
+             std::count_if(votes.begin(), votes.end(), [](const StepDefect& vote) { return vote.is_decided(); }) >= 2;
     };
     std::string no_reversed_step;
     for (int k = 0; k < 6; ++k, h *= 2) {
@@ -641,7 +640,7 @@ class StepExamination {
   }
   /// Steps whose error is at rounding level are dropped, unless all steps are.
   static void add(std::vector<StepDefect>& votes, const StepDefect& vote) {
-    if (vote.is_told()) std::erase_if(votes, [](const StepDefect& before) { return !before.is_told(); });
+    if (vote.is_decided()) std::erase_if(votes, [](const StepDefect& before) { return !before.is_decided(); });
     votes.push_back(vote);
   }
 

@@ -68,12 +68,12 @@ std::string unique_name(const MethodSpec& method, const std::vector<const Method
                                      [&](const MethodSpec* other) { return value_of(*other, option) != own; });
     const auto given = method.options.find(option.name);
     if (!differs || given == method.options.end()) continue;
-    const std::string told = option.name + "=" + given->second;
+    const std::string assignment = option.name + "=" + given->second;
     if (contains_option(shared, option)) {  // the canonical name shows fewer digits than those in which they differ
       const std::size_t at = inside.find(option.name + "=");
-      inside.replace(at, std::min(inside.find(',', at), inside.size()) - at, told);
+      inside.replace(at, std::min(inside.find(',', at), inside.size()) - at, assignment);
     } else {
-      inside += (inside.empty() ? "" : ",") + told;
+      inside += (inside.empty() ? "" : ",") + assignment;
     }
   }
   return shared.substr(0, open) + (inside.empty() ? "" : "(" + inside + ")");

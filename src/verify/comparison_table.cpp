@@ -47,8 +47,8 @@ std::string comparison_table(const Comparison& c) {
   int order = 0;
   for (const ComparisonPoint& p : c.points) {
     // the order of taylor depends on the tolerance, so it may differ within a method
-    const bool is_told = p.method == last && p.order == order;
-    std::vector<std::string> line{p.method == last ? "" : p.method, is_told ? "" : std::to_string(p.order),
+    const bool is_repeated = p.method == last && p.order == order;
+    std::vector<std::string> line{p.method == last ? "" : p.method, is_repeated ? "" : std::to_string(p.order),
                                   p.tolerance ? fmt::format("tol {:.0e}", *p.tolerance) : fmt::format("{:.6g}", p.dt),
                                   std::to_string(p.steps)};
     last = p.method;

@@ -41,7 +41,7 @@ Magnitude power_of_ten(int level) { return Magnitude("1e" + std::to_string(level
 std::vector<ComparisonWinner> winners(const Comparison& comparison) {
   // An error that is not well above the uncertainty of the reference does not count.
   const double floor = comparison.reference.uncertainty.log10;
-  const double told = floor + std::log10(4.0);
+  const double least_error = floor + std::log10(4.0);
   constexpr double size = 0;  // log10 of a relative error of 1; with a larger error a method approximates nothing
   std::vector<Curve> methods;
   // Levels are powers of ten in the range of mp(100000). An error of exactly 0 gives no level.
@@ -55,7 +55,7 @@ std::vector<ComparisonWinner> winners(const Comparison& comparison) {
     const double error = std::max(p.error.log10, floor);
     if (!(error >= least)) continue;
     highest = std::max(highest, static_cast<int>(std::floor(error)));
-    lowest = std::min(lowest, static_cast<int>(std::ceil(std::max(error, told))));
+    lowest = std::min(lowest, static_cast<int>(std::ceil(std::max(error, least_error))));
   }
   std::vector<ComparisonWinner> all;
   for (const bool by_time : {false, true}) {

@@ -357,7 +357,7 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
                     "excluded; the class bounded needs {}",
                     rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_told));
   }
-  return {DriftClass::bounded, grows + fmt::format(" over {:.0f} periods", *found.periods)};
+  return {DriftClass::bounded, grows + fmt::format(" over {:.0f} {}", *found.periods, series.counted)};
 }
 
 }  // namespace

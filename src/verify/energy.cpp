@@ -61,7 +61,7 @@ struct CompletedRuns {
     first = early == 0 ? energies.size() - 1 : std::min(first, energies.size() - 1);
     ++early;
   }
-  std::string told(std::int64_t per_block, std::size_t expected, double h) const {
+  std::string interruption(std::int64_t per_block, std::size_t expected, double h) const {
     if (early == 0) return {};
     const auto steps = [&](std::size_t blocks) { return static_cast<std::int64_t>(blocks) * per_block; };
     return fmt::format("{} of {} runs with step {:.3g} {}, the shortest within {} steps after step {} of {}", early,
@@ -155,7 +155,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   const bool leaves = map.claims().explicit_step;
   const double early_level = leaves ? std::numeric_limits<double>::infinity() : unknown;
   if (ended.early > 0) found.level = early_level;
-  found.reason = ended.told(block_steps, coarse_blocks + 1, h);
+  found.reason = ended.interruption(block_steps, coarse_blocks + 1, h);
   found.step = h;
   found.rounding = rounding_level(region, h, static_cast<double>(coarse_blocks * block_steps));
   found.drift = classify_drift(energies);
@@ -170,7 +170,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);
   }
   if (fine_ended.early > 0) found.fine_level = early_level;
-  if (found.reason.empty()) found.reason = fine_ended.told(fine_block_steps, fine_blocks + 1, fine_step);
+  if (found.reason.empty()) found.reason = fine_ended.interruption(fine_block_steps, fine_blocks + 1, fine_step);
   found.fine_rounding = rounding_level(region, fine_step, static_cast<double>(fine_blocks * fine_block_steps));
   found.step_exponent = step_exponent(map, region, h, unit);
   return found;

@@ -342,6 +342,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
     series.deviations.push_back(energy[i] - energy.front());
   }
   series.periods = periods_of_rate(times, series.deviations);
+  series.counted = "oscillations of the energy";
   constexpr double parts_over_whole = 4;  // assumed size of kinetic and potential energy, relative to the total energy
   series.rounding = std::max(parts_over_whole * epsilon * largest_energy, smallest_difference(energy) / 2);
   series.roundings = static_cast<double>(t.size() - 1);
@@ -373,7 +374,7 @@ LogCertificate certify_log(const std::vector<double>& t, const std::vector<doubl
   } else if (!found.drift.drift && largest_deviation > 64 * series.rounding * (1 + std::sqrt(series.roundings)) &&
              is_line_beneath_noise(t, energy)) {  // more than roundings to one side explain
     found.drift.drift = DriftClass::linear;
-    found.drift.reason = "a straight line beneath independent noise";
+    found.drift.reason = "a straight line plus independent noise";
   }
   return found;
 }

@@ -96,9 +96,8 @@ MethodSpec measurable(const MethodSpec& method) {
 
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method) {
   if (describe(method).varies_steps) {
-    throw Error(
-        "found " + describe(method).name +
-        "; allowed step_control=fixed, because with steps of varying length a step is not a map of (q, p) alone");
+    throw Error("found " + describe(method).name +
+                "; allowed step_control=fixed, because with steps of varying size a step is not a map of (q, p) alone");
   }
   const auto found_entry = find_problem(region);
   const ProblemEntry& entry = *found_entry;

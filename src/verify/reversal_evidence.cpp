@@ -382,11 +382,12 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   const std::string explained = fmt::format("{}, rounding explains up to {}", off(worst), brief(in_its_unit));
   if (!within_rounding(motion, growth, actions)) {
     if (method.reversible && within_rounding(motion, growth, actions, beyond)) {
-      return {ReversalProof::nothing,
-              explained +
-                  fmt::format(", and less than {:g} times this is not a proof, since stiff steps have larger rounding "
-                              "errors; an arithmetic with more digits would decide",
-                              beyond)};
+      return {
+          ReversalProof::nothing,
+          explained +
+              fmt::format("; a distance below {:g} times this proves nothing, since stiff steps have larger rounding "
+                          "errors; an arithmetic with more digits would decide",
+                          beyond)};
     }
     if (!begins_on_a_wall(motion)) return {ReversalProof::not_reversible, explained};
     return {ReversalProof::nothing, explained +
@@ -405,7 +406,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
 std::int64_t first_bounce(const Request& request, std::int64_t steps, const ContinueQuestion& go_on) {
   const auto simulation = second_simulation(request);
   std::int64_t first = 0;
-  simulation->tell_bounces([&](const Bounce& bounce) {
+  simulation->on_bounce([&](const Bounce& bounce) {
     if (first == 0) first = bounce.step;
   });
   (void)run(*simulation, steps, {}, [&](std::int64_t) { return first == 0 && (!go_on || go_on()); });
@@ -482,7 +483,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
-  simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
+  simulation->on_bounce([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
   StoredStates way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
   Reversal reversal;

@@ -60,17 +60,22 @@ std::string readable_wall(const std::string& text) {
 }
 }  // namespace
 
-std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
+StartRefusal beyond_walls(const ProblemEntry& problem, const Walls& walls, const Texts& parameters,
+                          const std::vector<double>& q) {
   for (const Walls::Interval& wall : walls.intervals) {
     const double x = q.at(wall.index);
     const bool below = !wall.min.empty() && (walls.hard() ? x < number_value(wall.min) : x <= number_value(wall.min));
     const bool above = !wall.max.empty() && (walls.hard() ? x > number_value(wall.max) : x >= number_value(wall.max));
     if (!below && !above) continue;
-    return wall.coordinate + " = " + shortest(x) + (walls.hard() ? " beyond" : " on or beyond") + " the wall at " +
-           readable_wall(below ? wall.min : wall.max) + "; allowed a start between the walls, " +
-           (wall.min.empty()   ? "at most " + readable_wall(wall.max)
-            : wall.max.empty() ? "at least " + readable_wall(wall.min)
-                               : "from " + readable_wall(wall.min) + " to " + readable_wall(wall.max));
+    StartRefusal refusal{.key = wall_keys().walls.name};
+    refusal.message = wall.coordinate + " = " + shortest(x) + (walls.hard() ? " beyond" : " on or beyond") +
+                      " the wall at " + readable_wall(below ? wall.min : wall.max) +
+                      "; allowed a start between the walls, " +
+                      (wall.min.empty()   ? "at most " + readable_wall(wall.max)
+                       : wall.max.empty() ? "at least " + readable_wall(wall.min)
+                                          : "from " + readable_wall(wall.min) + " to " + readable_wall(wall.max));
+    if (problem.particles) refusal.particles = {wall.index / problem.particles(parameters).space + 1};
+    return refusal;
   }
   return {};
 }
@@ -100,9 +105,9 @@ ProblemEntry entry_with_walls(const ProblemEntry& problem, const Walls& walls) {
   e.from_reference = nullptr;
   // Kernels compiled for a problem do not support walls.
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
-  e.refused_start = [inner = problem.refused_start, walls](const Texts& parameters, const std::vector<double>& q) {
-    const std::string beyond = beyond_walls(walls, q);
-    return beyond.empty() ? inner(parameters, q) : beyond;
+  e.refused_start = [problem, walls](const Texts& parameters, const std::vector<double>& q) {
+    const StartRefusal beyond = beyond_walls(problem, walls, parameters, q);
+    return beyond.message.empty() ? problem.refused_start(parameters, q) : beyond;
   };
   if (walls.hard()) return e;
   // boris and eg do not support another term of V.

@@ -86,7 +86,7 @@ class WalledSimulation : public Simulation {
     }
     return all;
   }
-  void tell_bounces(std::function<void(const Bounce&)> told) override { told_ = std::move(told); }
+  void on_bounce(std::function<void(const Bounce&)> callback) override { on_bounce_ = std::move(callback); }
   /// Steps that are not recorded add to the sums here.
   bool add_to_sums(std::span<const NamedExpression> summed, std::span<StepSum> sums) override {
     if (!inner_->add_to_sums(summed, sums)) return false;
@@ -209,7 +209,7 @@ class WalledSimulation : public Simulation {
 
   /// If no callback needs the bounces, recorded steps carry them out and count them.
   std::span<std::int64_t> counted() {
-    if (told_ || !walls_->in_steps) return {};
+    if (on_bounce_ || !walls_->in_steps) return {};
     return counts_;
   }
 
@@ -297,7 +297,7 @@ class WalledSimulation : public Simulation {
       met_.push_back({static_cast<std::size_t>(wall - walls_->sides.begin()), R(0)});
       keep_state(met_.back());
       // With several bounces in one step, all but the last leave the coordinate outside.
-      if (told_) met_.back().q[wall->coordinate] = wall->at;
+      if (on_bounce_) met_.back().q[wall->coordinate] = wall->at;
     }
     return false;
   }
@@ -338,7 +338,7 @@ class WalledSimulation : public Simulation {
       const std::size_t n = numbers->part().size;
       const auto bounced = [&](std::size_t side, double after) {
         met_.push_back({side, after});
-        for (std::size_t i = 0; told_ && i < n; ++i) {
+        for (std::size_t i = 0; on_bounce_ && i < n; ++i) {
           if (i == 0) met_.back().q = met_.back().p = V(n);
           met_.back().q[i] = numbers->position(i);
           met_.back().p[i] = numbers->momentum(i);
@@ -394,7 +394,7 @@ class WalledSimulation : public Simulation {
     V p{};
   };
   void keep_state(Met& met) const {
-    if (!told_) return;
+    if (!on_bounce_) return;
     met.q = parts_->present_positions();
     met.p = parts_->present_momenta();
   }
@@ -403,7 +403,7 @@ class WalledSimulation : public Simulation {
   void tell() {
     for (const Met& met : met_) {
       ++counts_[met.side];
-      if (!told_) continue;
+      if (!on_bounce_) continue;
       const WallSide<R>& wall = walls_->sides[met.side];
       Bounce bounce;
       bounce.step = inner_->step();
@@ -420,7 +420,7 @@ class WalledSimulation : public Simulation {
         for (const R& x : met.q) bounce.digits.q.push_back(written_digits(x));
         for (const R& x : met.p) bounce.digits.p.push_back(written_digits(x));
       }
-      told_(bounce);
+      on_bounce_(bounce);
     }
     met_.clear();
   }
@@ -481,7 +481,7 @@ class WalledSimulation : public Simulation {
   Frame frame_;
   std::string why_;
   std::optional<std::size_t> outside_;  // the interval of the soft wall that was reached
-  std::function<void(const Bounce&)> told_;
+  std::function<void(const Bounce&)> on_bounce_;
 };
 
 /// A member of an ensemble. It takes the counts of recorded steps together with their values.

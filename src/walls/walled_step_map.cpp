@@ -92,7 +92,7 @@ class WalledStepMap final : public StepMap {
   bool advance_with_tangents(State<double>& z, Tangents& tangents, double h, std::int64_t steps) const override {
     const auto run = simulation(z, h, request_);
     std::vector<std::int64_t> with_bounce;
-    run->tell_bounces([&](const Bounce& bounce) {
+    run->on_bounce([&](const Bounce& bounce) {
       if (with_bounce.empty() || with_bounce.back() != bounce.step) with_bounce.push_back(bounce.step);
     });
     if (run->advance(steps) != Outcome::done) return false;
@@ -180,7 +180,7 @@ class WalledStepMap final : public StepMap {
   bool bounce(State<double>& z, Tangents& tangents, double h) const {
     const auto run = simulation(z, h, request_);
     std::vector<Bounce> met;
-    run->tell_bounces([&](const Bounce& bounce) { met.push_back(bounce); });
+    run->on_bounce([&](const Bounce& bounce) { met.push_back(bounce); });
     State<double> end = z;
     if (!take(*run, 1, end)) return false;
     if (met.empty()) return free_->advance_with_tangents(z, tangents, h, 1);  // no bounce here, because of rounding

@@ -156,13 +156,15 @@ void write_scenario(std::ostream& out, const Scenario& scenario) {
   }
   const auto list = [](const std::vector<double>& xs) { return joined(xs, shortest); };
   constexpr std::size_t most_shown = 100;
-  out << fmt::format(
-      "  start: q = [{}], p = [{}], H = {}\n",
-      scenario.start_q.size() > most_shown ? fmt::format("{} numbers", scenario.start_q.size())
-                                           : list(scenario.start_q),
-      scenario.start_p.size() > most_shown ? fmt::format("{} numbers", scenario.start_p.size())
-                                           : list(scenario.start_p),
-      shortest(scenario.problem->energy(scenario.request.parameters, scenario.start_q, scenario.start_p)));
+  const ProblemEntry& problem = *scenario.problem;
+  out << fmt::format("  start: q = [{}], p = [{}]{}\n",
+                     scenario.start_q.size() > most_shown ? fmt::format("{} numbers", scenario.start_q.size())
+                                                          : list(scenario.start_q),
+                     scenario.start_p.size() > most_shown ? fmt::format("{} numbers", scenario.start_p.size())
+                                                          : list(scenario.start_p),
+                     problem.energy ? ", H = " + shortest(problem.energy(scenario.request.parameters, scenario.start_q,
+                                                                         scenario.start_p))
+                                    : "");
 }
 
 /// Writes the ways to give the start of a run.

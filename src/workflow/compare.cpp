@@ -77,7 +77,7 @@ std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& a
   const std::vector<std::string> names = comparison_names(asked.methods);
   const ComparisonPoint* longest = nullptr;
   std::size_t count = 0;
-  std::string told;
+  std::string warning;
   for (const ComparisonPoint& p : c.points) {
     const auto name = std::find(names.begin(), names.end(), p.method);
     if (!p.done() || name == names.end()) continue;
@@ -88,11 +88,11 @@ std::vector<Warning> warnings_of(const Comparison& c, const ComparisonRequest& a
     ++count;
     if (longest != nullptr && std::abs(p.dt) <= std::abs(longest->dt)) continue;
     longest = &p;
-    told = std::move(why);
+    warning = std::move(why);
   }
   if (count == 0) return all;
   all.push_back({"long_step", fmt::format("in {} of {} runs, with the largest step in {} with dt = {:g}, {}", count,
-                                          c.points.size(), longest->method, longest->dt, told)});
+                                          c.points.size(), longest->method, longest->dt, warning)});
   return all;
 }
 

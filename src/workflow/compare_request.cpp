@@ -28,10 +28,9 @@ class RequestReader {
     read_methods(input.methods, shared);
     if (varies_by_file_) {
       const std::string key = std::string("method.") + step_control_option;
-      complain_of(key,
-                  "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by " +
-                      set_option(key, fixed_steps) +
-                      ": all runs of a comparison must end at the same time, which steps of varying length do not");
+      complain_of(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by " +
+                           set_option(key, fixed_steps) +
+                           ": all runs of a comparison must end at the same time, which steps of varying size do not");
     }
     request.request = scenario.request;
     request.t_end = scenario.dt * static_cast<double>(scenario.steps);
@@ -64,7 +63,7 @@ class RequestReader {
   }
 
   void read_methods(const std::vector<std::string>& all, SharedMethodKeys& shared) {
-    if (all.empty()) complain(option_name("methods"), "found none; allowed at least one, such as cg(1,5)");
+    if (all.empty()) complain(option_name("methods"), "missing; allowed at least one, such as cg(1,5)");
     for (const std::string& name : all) {
       try {
         MethodSpec method = parse_method(name);
@@ -81,7 +80,7 @@ class RequestReader {
         if (why_not.empty()) why_not = refused_walls(one);
         if (why_not.empty()) why_not = refused_by_size(one, scenario_.start_q.size());
         if (why_not.empty() && describe(method).varies_steps) {
-          why_not = "allowed step_control=fixed, because steps of varying length do not end at the same time";
+          why_not = "allowed step_control=fixed, because steps of varying size do not end at the same time";
         }
         if (why_not.empty()) {
           request.methods.push_back(method);

@@ -63,12 +63,6 @@ std::size_t space_of(const Scenario& scenario, std::size_t size) {
   return 0;
 }
 
-/// Returns the names of the bodies, for problems whose bodies have well-known names.
-std::vector<std::string> names_of_bodies(const std::string& problem) {
-  if (problem == "solar-system") return {"Sun", "Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"};
-  return {};
-}
-
 /// Returns H - H0 computed with all digits, for arithmetic with more digits than double; else empty.
 std::vector<double> energy_differences(const Table& samples) {
   const Column* const energy = samples.find("digits/energy");
@@ -256,7 +250,7 @@ RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const
     positions = [q = samples["q"]](std::size_t sample) { return q.row(sample); };
   }
   data.particles = particles_of(scenario, data.space, std::move(positions));
-  data.bodies = names_of_bodies(scenario.request.problem);
+  data.bodies = scenario.body_names;
   const ColumnUnits units = column_units(scenario);
   data.units = {units.t.empty() ? "" : units.t + "s", units.q, units.p, units.energy};
   data.path = path_of(scenario, data, tables.bounces);
@@ -354,7 +348,7 @@ FigureSamples first_steps_of(const RunForFigure& run) {
   Frame frame;
   const auto& walls = scenario.request.walls;
   if (walls && walls->rule == WallRule::event) {  // the drawn path has corners at the bounces
-    simulation->tell_bounces([&](const Bounce& bounce) {
+    simulation->on_bounce([&](const Bounce& bounce) {
       first_steps.t.push_back(bounce.time);
       for (std::size_t i = 0; i < n; ++i) {
         first_steps.q[i].push_back(bounce.q[i]);

@@ -8,6 +8,8 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/walls.hpp"
 #include "json_text.hpp"
 #include "number_text.hpp"
@@ -408,13 +410,19 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
   const auto asked_at = [&](std::int64_t step) { return !settings.pulse || settings.pulse(step); };
   const std::function<bool()> goes_on = [&] { return asked_at(simulation->step() - checkpoints.progress().first); };
   const StopQuestion question(goes_on);
-  Reversal reversal = reverse(
-      *simulation, scenario.steps,
-      [&](std::int64_t step) {
-        checkpoints.write_if_due();
-        return asked_at(step);
-      },
-      observers, checkpoints.progress(), unit_groups(*scenario.problem, scenario.start_q.size()));
+  Reversal reversal;
+  try {
+    reversal = reverse(
+        *simulation, scenario.steps,
+        [&](std::int64_t step) {
+          checkpoints.write_if_due();
+          return asked_at(step);
+        },
+        observers, checkpoints.progress(), unit_groups(*scenario.problem, scenario.start_q.size()));
+  } catch (const ClientError& error) {
+    checkpoints.write();
+    throw ClientError(std::string(error.what()) + "; start it again, and continue with " + option_name("resume"));
+  }
   if (reversal.outcome == Outcome::stopped) checkpoints.write();
   ReversalReport report = report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().forward_energy,
                                     checkpoints.turns(), true);

@@ -8,6 +8,8 @@
 
 #include "gnuplot.hpp"
 #include "hamflow/core/stop_question.hpp"
+#include "hamflow/detail/core/option_names.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "resume.hpp"
 #include "run_identity.hpp"
@@ -107,7 +109,7 @@ class ScenarioRun {
       recorder_ = std::make_unique<Recorder>(scenario_, fs::path(), std::string(), nullptr,
                                              [this] { simulation_->restart_energy_range(); });
     }
-    if (recorder_) simulation_->tell_bounces([this](const Bounce& bounce) { recorder_->append(bounce); });
+    if (recorder_) simulation_->on_bounce([this](const Bounce& bounce) { recorder_->append(bounce); });
     measures_.emplace(scenario_, *simulation_, recorder_.get());
     std::vector<NamedObserver> archived = measures_->observers();
     archived.push_back({"energy_blocks", &blocks_});
@@ -154,12 +156,18 @@ class ScenarioRun {
     measures_->observe_end(end);
     RunReport report;
     std::optional<RunCertificate> certificate;
-    if (!scenario_.map) {
+    if (!scenario_.map && result.client_error.empty()) {
       // Without a certificate only the sizes of energies are needed, so no further steps are taken.
       const ContinueQuestion no_steps = [] { return false; };
-      certificate = certify(
-          scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
-          scenario_.certificate ? continue_question(result.outcome == Outcome::stopped, result.steps_taken) : no_steps);
+      try {
+        certificate =
+            certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
+                    scenario_.certificate ? continue_question(result.outcome == Outcome::stopped, result.steps_taken)
+                                          : no_steps);
+      } catch (const ClientError& error) {
+        throw ClientError(std::string("certificate: ") + error.what() +
+                          "; all steps are done: start it again, and continue with " + option_name("resume"));
+      }
       const auto& reversal = certificate->reversal;
       certificate_stopped_ = scenario_.certificate && reversal && reversal->was_stopped;
       if (certificate_stopped_) result.outcome = Outcome::stopped;  // the certificate is incomplete
@@ -215,19 +223,29 @@ class ScenarioRun {
   }
   bool writes() const { return folder_ != nullptr; }
 
+  /// The state is then that after the last complete step, from which the run can be resumed.
+  Outcome run_until_client_fails(std::string& client_error) {
+    try {
+      return run(*simulation_, scenario_.steps, observers_, [&](std::int64_t step) {
+        if (recorder_) {
+          recorder_->flush_if_due();
+          if (checkpoints_) checkpoints_->write_if_due();
+          if (!recorder_->records_more_bounces()) simulation_->on_bounce({});  // unreported bounces cost less
+        }
+        return !settings_.pulse || settings_.pulse(step);
+      });
+    } catch (const ClientError& error) {
+      client_error = error.what();
+      return Outcome::stopped;
+    }
+  }
+
   RunResult take_steps() {
     RunResult result;
     const ContinueQuestion goes_on = [this] { return !settings_.pulse || settings_.pulse(simulation_->step()); };
     const StopQuestion question(goes_on);
     try {
-      result.outcome = run(*simulation_, scenario_.steps, observers_, [&](std::int64_t step) {
-        if (recorder_) {
-          recorder_->flush_if_due();
-          if (checkpoints_) checkpoints_->write_if_due();
-          if (!recorder_->records_more_bounces()) simulation_->tell_bounces({});  // unreported bounces cost less
-        }
-        return !settings_.pulse || settings_.pulse(step);
-      });
+      result.outcome = run_until_client_fails(result.client_error);
       if (result.outcome == Outcome::stopped && measures_->stopped()) result.outcome = Outcome::done;
       if (recorder_) {
         if (const auto time = recorder_->failed_at(simulation_->step());

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
+#include "element_columns.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/detail/problems/solar_bodies.hpp"
 #include "hamflow/detail/run/digits.hpp"
-#include "hamflow/problems/solar_system.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 
@@ -15,7 +16,7 @@ namespace hamflow {
 
 namespace {
 
-bool is_solar_system(const Scenario& scenario) { return scenario.request.problem == SolarSystem<double>::name; }
+bool is_solar_system(const Scenario& scenario) { return scenario.request.problem == SolarBodies::problem; }
 
 /// Returns the masses of the bodies in order; one entry if the problem has one mass.
 std::vector<double> masses_of(const Scenario& scenario) {
@@ -23,20 +24,25 @@ std::vector<double> masses_of(const Scenario& scenario) {
   for (const char* name : {"masses", "mass"}) {
     if (parameters.has(name)) return parameters.list(name);
   }
-  return is_solar_system(scenario) ? SolarSystem<double>::masses() : std::vector<double>();
+  if (!is_solar_system(scenario)) return {};
+  return solar_bodies(choice_of(scenario.problem->info, SolarBodies::key)).masses<double>();
 }
 
-/// Units of columns. Only the solar system has built-in numbers; all other problems have the units of the input.
+/// Units of columns: those of the numbers of the solar system, or those that [problem].units names; else those of the
+/// input, which has no names.
 struct Units {
   std::string length, momentum, angular_momentum;
   ColumnUnits columns{};
 };
 Units units_of(const Scenario& scenario) {
-  if (!is_solar_system(scenario)) return {};
-  return {"AU",
-          "solar mass AU/day",
-          "solar mass AU^2/day",
-          {.t = "day", .q = "AU", .p = "solar mass AU/day", .energy = "solar mass AU^2/day^2"}};
+  const UnitNames names = is_solar_system(scenario) ? UnitNames{"AU", "day", "solar mass"} : scenario.units;
+  if (names.length.empty()) return {};
+  const std::string head = names.mass + " " + names.length;
+  return {
+      names.length,
+      head + "/" + names.time,
+      head + "^2/" + names.time,
+      {.t = names.time, .q = names.length, .p = head + "/" + names.time, .energy = head + "^2/" + names.time + "^2"}};
 }
 
 std::string unit_of(const InvariantInfo& invariant, const Units& units) {
@@ -102,6 +108,17 @@ std::vector<InvariantColumn> observable_columns(const Scenario& scenario) {
   if (scenario.hamiltonian) {
     all.push_back({scenario.hamiltonian->name, 1, "H(q, p, t), including the work of the drive", {}});
   }
+  if (scenario.elements) {
+    for (const std::size_t body : bodies_with_elements(scenario)) {
+      for (const ElementColumn& column : element_columns()) {
+        const std::string unit = column.quantity == ElementColumn::Quantity::length  ? units_of(scenario).length
+                                 : column.quantity == ElementColumn::Quantity::time  ? units_of(scenario).columns.t
+                                 : column.quantity == ElementColumn::Quantity::angle ? "rad"
+                                                                                     : "";
+        all.push_back({body_name(scenario, body) + "." + column.name, 1, column.meaning, unit});
+      }
+    }
+  }
   return all;
 }
 
@@ -109,6 +126,12 @@ std::vector<double> observable_values(const Scenario& scenario, const Frame& fra
   std::vector<double> all;
   for (const NamedExpression& each : scenario.observables) all.push_back(each.expression(frame));
   if (scenario.hamiltonian) all.push_back(scenario.hamiltonian->expression(frame));
+  if (scenario.elements) {
+    const auto elements = elements_at(scenario, frame);
+    for (const std::size_t body : bodies_with_elements(scenario)) {
+      for (const ElementColumn& column : element_columns()) all.push_back((*elements[body]).*column.value);
+    }
+  }
   return all;
 }
 

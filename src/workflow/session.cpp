@@ -238,7 +238,7 @@ bool Session::records_more_bounces() const { return std::ssize(bounces_) < scena
 void Session::report_bounces() {
   reports_bounces_ = records_more_bounces();
   if (!reports_bounces_) return;
-  simulation_->tell_bounces([this](const Bounce& bounce) {
+  simulation_->on_bounce([this](const Bounce& bounce) {
     if (!records_more_bounces()) return;
     Bounce& kept = bounces_.emplace_back(bounce);
     kept.step += step_before_;
@@ -251,7 +251,7 @@ void Session::report_bounces() {
 
 Outcome Session::advance(std::int64_t steps) {
   if (reports_bounces_ && !records_more_bounces()) {  // unreported bounces cost less
-    simulation_->tell_bounces({});
+    simulation_->on_bounce({});
     reports_bounces_ = false;
   }
   if (one_part_) return simulation_->advance(steps);

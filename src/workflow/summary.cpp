@@ -10,7 +10,9 @@
 
 #include "bounce_names.hpp"
 #include "core/text_place.hpp"
+#include "element_columns.hpp"
 #include "engine/large_steps.hpp"
+#include "engine/planetary_steps.hpp"
 #include "engine/wall_failures.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
@@ -25,6 +27,7 @@
 #include "number_text.hpp"
 #include "orbit_digits.hpp"
 #include "run_description.hpp"
+#include "run_keys.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
@@ -66,7 +69,9 @@ bool has_parameter(const ProblemEntry& problem, const std::string& name) {
 Value::Table parameters_of(const Scenario& scenario) {
   Value::Table parameters;
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
+  const auto is_free = [](const std::string& key) { return is_free_on_resume("problem." + key); };
   for (const auto& [key, value] : scenario.problem->info.variant) {
+    if (is_free(key)) continue;
     // The choices of the problem `formula` are formulas, which are in the scenario. The parameters follow below.
     if (has_typed_hamiltonian(*scenario.problem) || key == FormulaKeys::parameters) continue;
     const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // as in dimension = 3
@@ -84,7 +89,7 @@ Value::Table parameters_of(const Scenario& scenario) {
   }
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
-    if (!values.has(parameter.name)) continue;
+    if (!values.has(parameter.name) || is_free(parameter.name)) continue;
     const std::vector<double>& list = values.list(parameter.name);
     const bool single =
         parameter.type == OptionType::number || (parameter.type == OptionType::number_or_list && list.size() == 1);
@@ -123,6 +128,19 @@ std::vector<Body> bodies_of(const Scenario& scenario, const Frame& frame) {
   const Frame planar = to_plane ? to_plane(scenario.request.parameters, frame.q, frame.p) : frame;
   const auto [first, second] = scenario.bodies->at(frame.time, {planar.q[0], planar.q[1]}, {planar.p[0], planar.p[1]});
   return {first, second};
+}
+
+Value::Table elements_summary(const Scenario& scenario, const Frame& frame) {
+  const auto elements = elements_at(scenario, frame);
+  Value::Table all;
+  for (const std::size_t body : bodies_with_elements(scenario)) {
+    Value::Table of_body;
+    for (const ElementColumn& column : element_columns()) {
+      of_body.emplace_back(column.name, (*elements[body]).*column.value);
+    }
+    all.emplace_back(body_name(scenario, body), std::move(of_body));
+  }
+  return all;
 }
 
 /// Returns the start that was computed from an energy, in the digits of the run.
@@ -269,7 +287,7 @@ std::string hint_for(const Request& request, bool differentiated, Outcome outcom
     const std::string solved = hint_after_divergence(request, differentiated);
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
-    // Steps of varying length also fail in this way if their density is no longer positive. Then no iteration failed to
+    // Steps of varying size also fail in this way if their density is no longer positive. Then no iteration failed to
     // converge.
     const auto problem_entry = find_problem(request);
     const ProblemEntry& problem = *problem_entry;
@@ -314,6 +332,14 @@ RunError error_of(const Scenario& scenario, const Simulation& simulation, const 
             result.file_error,
             "free disk space, or choose another folder with " + option_name("out") +
                 "; samples written before the failure are kept",
+            {}};
+  }
+  if (!result.client_error.empty()) {
+    return {"client",
+            frame.step + 1,
+            frame.time,
+            fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time), result.client_error),
+            "start the client again, and continue from the step before with " + option_name("resume"),
             {}};
   }
   const bool says_more =
@@ -409,7 +435,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   Frame frame;
   simulation.look(frame);
   Summary s;
-  s.status = result.file_error.empty() ? status_of(result.outcome) : "failed";
+  s.status = result.file_error.empty() && result.client_error.empty() ? status_of(result.outcome) : "failed";
   s.problem = request.problem;
   s.method = method.name;
   s.arithmetic = request.arithmetic;
@@ -419,6 +445,8 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.steps = simulation.step();
   if (!request.start.energy.empty()) s.start = start_of(scenario);
   s.energy = energy_of(scenario, simulation.energy(), frame.digits, certificate);
+  const auto* const planets = dynamic_cast<const PlanetarySteps*>(&simulation);
+  if (planets != nullptr && !planets->watches_every_step()) s.energy.of = "recorded states";
   if (scenario.hamiltonian) {  // the energy above is H minus the work of the drive
     Frame start;
     start.q = scenario.start_q;
@@ -439,6 +467,7 @@ Summary summary_of(const Scenario& scenario, const Simulation& simulation, const
   s.constraints = simulation.constraints();
   if (method.diagnostics) s.diagnostics = diagnostics_of(simulation.diagnostics(), scenario.dt);
   if (scenario.bodies) s.bodies = bodies_of(scenario, frame);
+  if (scenario.elements) s.elements = elements_summary(scenario, frame);
   if (problem.describe_orbit && !scenario.map) s.orbit = orbit_of(scenario);
   if (problem.exact && !scenario.map) s.exact = exact_of(scenario, frame);
   s.effort = simulation.effort();

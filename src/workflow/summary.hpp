@@ -17,8 +17,9 @@ struct MemberStop;
 /// Result of taking the steps of a run.
 struct RunResult {
   Outcome outcome = Outcome::done;
-  std::string failure;     // describes the step that failed
-  std::string file_error;  // explains why samples could not be written
+  std::string failure;       // describes the step that failed
+  std::string file_error;    // explains why samples could not be written
+  std::string client_error;  // explains why the client of a socket gave no forces; the outcome is then "stopped"
   double wall_seconds = 0;
   std::int64_t steps_taken = 0;
 };

@@ -15,6 +15,7 @@ template <class Ar>
 void fields(Ar& ar, EnergySummary& x) {
   ar("initial", x.initial, "final", x.final, "max_error", x.max_error, "scale", x.scale, "max_relative_error",
      x.max_relative_error);
+  ar.if_any("of", x.of);
 }
 
 template <class Ar>
@@ -145,6 +146,7 @@ void fields(Ar& ar, Summary& x) {
   ar.if_any("constraints", x.constraints);
   ar.if_any("diagnostics", x.diagnostics);
   ar.if_any("bodies", x.bodies);
+  ar.if_any("elements", x.elements);
   ar.if_any("orbit", x.orbit);
   ar.if_any("exact", x.exact);
   ar("evaluations", x.effort, "newton", x.newton, "events", x.events);

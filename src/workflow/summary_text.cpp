@@ -49,21 +49,25 @@ std::string orbit_text(const OrbitSummary& orbit) {
          (orbit.falls_into_centre ? ", falls into the centre" : "");
 }
 
+/// One line for the energy, one for each invariant, one for the reversal.
 std::string certificate_text(const RunCertificate& c) {
+  const std::string next_line = fmt::format("\n{:<20}", "");
   std::string text =
       fmt::format("energy error {}: {}", c.drift.drift ? name(*c.drift.drift) : "undecided", c.drift.reason);
   for (const MomentumMap& map : c.momentum_maps) {
     if (!map.rounding) continue;
     const std::optional<bool> conserved = map.conserved();
-    text += fmt::format("; {} {}", map.name,
-                        !conserved   ? "conservation undecided: the error may come from rounding or from the method"
-                        : *conserved ? "conserved to rounding"
-                                     : "not conserved");
+    text += next_line + fmt::format("{} {}", map.name,
+                                    !conserved
+                                        ? "conservation undecided: the error may come from rounding or from the method"
+                                    : *conserved ? "conserved to rounding"
+                                                 : "not conserved");
   }
   if (const auto& back = c.reversal) {
-    text += fmt::format("; reversal tested over {} ({} % of the run): {}: {}",
-                        counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
-                        back->proves == ReversalProof::nothing ? "inconclusive" : name(back->proves), back->reason);
+    text += next_line + fmt::format("reversal tested over {} ({} % of the run): {}: {}",
+                                    counted(static_cast<std::size_t>(back->steps), "step"), percent_of(back->share),
+                                    back->proves == ReversalProof::nothing ? "inconclusive" : name(back->proves),
+                                    back->reason);
   }
   return text;
 }
@@ -125,14 +129,15 @@ std::string summary_text(const Summary& s) {
   row(s.hamiltonian ? "H - int dH/dt" : "energy",
       watched_text(number(energy.initial), number(energy.final), energy.max_error) +
           (is_relative ? fmt::format(" ({} of the energy scale)", number_text(*energy.max_relative_error, "{:.3g}"))
-                       : " (no relative error, because H is 0 at the start)"));
+                       : " (no relative error, because H is 0 at the start)") +
+          (energy.of.empty() ? "" : "; errors are those of " + energy.of));
   for (const InvariantSummary& each : s.invariants) row(each.name, invariant_text(each));
   if (s.constraints) {
     row("constraints", "|g| at most " + number_text(s.constraints->position, "{:.3g}") + ", |g' M^-1 p| at most " +
                            number_text(s.constraints->velocity, "{:.3g}"));
   }
   if (s.exact) row("exact", exact_text(*s.exact));
-  if (s.orbit) row("orbit", orbit_text(*s.orbit));
+  if (s.orbit) row("exact orbit", orbit_text(*s.orbit));
   for (const Body& body : s.bodies) {
     const auto list = [](const auto& x) { return list_text({x.begin(), x.end()}); };
     row("body",

@@ -29,8 +29,8 @@ std::vector<Complaint> differences_of(const Sweep& sweep, const SweepIdentity& n
                        ", as when the sweep began" + advice_to_overwrite()});
   };
   for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
-    const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";
-    const std::string allowed = i < before.varied.size() ? before.varied[i] : "nothing";
+    const std::string found = i < now.varied.size() ? now.varied[i] : "no further key";
+    const std::string allowed = i < before.varied.size() ? before.varied[i] : "no further key";
     if (found != allowed) complain(option_name("vary"), found, allowed);
   }
   const auto name = [](bool in_step) { return (in_step ? "" : "no ") + option_name("zip"); };
@@ -134,8 +134,8 @@ void SweepFolder::note_progress() {
   } else if (left == 0) {
     notes_.emplace_back("the sweep is complete already; there is nothing to do");
   } else {
-    notes_.push_back(
-        fmt::format("{} of {} members are finished already", sweep_.own_members() - left, sweep_.own_members()));
+    notes_.push_back(fmt::format("{} of {} members are finished already or have no start", sweep_.own_members() - left,
+                                 sweep_.own_members()));
   }
 }
 

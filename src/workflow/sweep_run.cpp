@@ -59,7 +59,7 @@ void add_passing_particles(const Sweep& sweep, const SweepRequest& request, std:
   MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
   std::size_t count = 0;
   std::size_t first = 0;
-  std::string told;
+  std::string first_warning;
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     const MemberRow& row = sweep.rows()[member];
     if (row.status != Outcome::done || row.nonsense || row.steps == 0) continue;
@@ -74,11 +74,11 @@ void add_passing_particles(const Sweep& sweep, const SweepRequest& request, std:
     std::string why = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
     if (why.empty()) continue;
     if (count++ == 0) first = member;
-    if (told.empty()) told = std::move(why);
+    if (first_warning.empty()) first_warning = std::move(why);
   }
   if (count == 0) return;
-  warnings.push_back(
-      {"long_step", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)});
+  warnings.push_back({"long_step", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(),
+                                               first, first_warning)});
 }
 
 /// Reads the varied keys. Errors in the request other than those of the scenario are added to `wrong`.
@@ -87,7 +87,7 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Com
   const auto complain = [&](const char* option, std::string message) {
     wrong.push_back({"", 0, 0, option_name(option), std::move(message)});
   };
-  if (request.varied.empty()) complain("vary", "found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
+  if (request.varied.empty()) complain("vary", "missing; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
   if (request.threads < 0 || request.threads > most_sweep_threads) {
     complain("threads", "found " + std::to_string(request.threads) + "; allowed 1 to " +
                             std::to_string(most_sweep_threads) + ", 0 for all");

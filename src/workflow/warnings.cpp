@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "element_columns.hpp"
+#include "engine/planetary_steps.hpp"
 #include "gas/container.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/section.hpp"
@@ -66,7 +68,7 @@ bool is_free_motion(const Scenario& scenario, const Frame& end) {
 }
 
 void add_long_step(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
-  // With steps of varying length, dt is only the first step. It is compared with the known period of the orbit. The
+  // With steps of varying size, dt is only the first step. It is compared with the known period of the orbit. The
   // mean step is compared, too, because a density that is integrated with too long steps no longer follows its monitor.
   const bool varies = describe(scenario.request.method).varies_steps;
   const auto seen = varies ? std::nullopt : motion.turns->fastest();
@@ -195,6 +197,18 @@ void add_long_search(const Scenario& scenario, const Simulation& simulation, std
                                 scenario.dt)});
 }
 
+/// Warns if two bodies came so close that the motion is no longer nearly a Kepler motion of each body.
+void add_close_encounter(const Scenario& scenario, const Simulation& simulation, std::vector<Warning>& all) {
+  const auto* const planets = dynamic_cast<const PlanetarySteps*>(&simulation);
+  const auto met = planets != nullptr ? planets->first_encounter() : std::nullopt;
+  if (!met) return;
+  all.push_back({"close_encounter",
+                 fmt::format("{} and {} came within 3 Hill radii of each other at t = {:.6g}, where {} is inaccurate; "
+                             "try dop853, which adapts its steps, or a smaller dt",
+                             body_name(scenario, met->bodies.first), body_name(scenario, met->bodies.second), met->time,
+                             simulation.method().name)});
+}
+
 /// Warns about invariants that are not finite at the start or at the end, so that their errors are unknown.
 void add_no_numbers(const Summary& summary, std::vector<Warning>& all) {
   if (summary.status == "failed") return;  // the failure explains it
@@ -319,8 +333,8 @@ void add_passing_particles(const Scenario& scenario, const Frame& end, std::vect
   Frame start;
   start.q = scenario.start_q;
   start.p = scenario.start_p;
-  const std::string told = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
-  if (!told.empty()) all.push_back({"long_step", told});
+  const std::string passing = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
+  if (!passing.empty()) all.push_back({"long_step", passing});
 }
 
 /// Returns the product q.p of a state in Cartesian coordinates, whose sign is the sign of the radial velocity.
@@ -333,6 +347,25 @@ double radial(const ProblemEntry& problem, const Texts& parameters, const std::v
   double sum = 0;
   for (std::size_t i = 0; i < at.q.size(); ++i) sum += at.q[i] * at.p[i];
   return sum;
+}
+
+/// Warns if the run ends far from the known orbit of its start. The energy scale of a narrow ellipse is large at the
+/// pericentre, so an energy error below the scale can turn the orbit into a hyperbola.
+void add_left_orbit(const Scenario& scenario, const WatchedMotion& motion, std::vector<Warning>& all) {
+  constexpr double most = 2;  // a distance beyond the orbit by this factor is a wrong motion
+  if (motion.orbit == nullptr || motion.orbit->falls_into_centre) return;
+  const double smallest = motion.orbit->r_min.value;
+  const double largest = motion.orbit->r_max.value;
+  Frame at = motion.end;
+  if (scenario.problem->to_reference) at = scenario.problem->to_reference(scenario.request.parameters, at.q, at.p);
+  double square = 0;
+  for (const double x : at.q) square += x * x;
+  const double r = std::sqrt(square);
+  if (!(r > most * largest) && !(most * r < smallest)) return;
+  all.push_back({"left_orbit", fmt::format("the distance from the centre is {:.3g} at the end, but the orbit of this "
+                                           "start stays between {:.3g} and {:.3g}, so this result is meaningless; try "
+                                           "a smaller dt",
+                                           r, smallest, largest)});
 }
 
 /// Returns whether an orbit that falls into the centre has reached it by time t. From apocentre to centre it takes half
@@ -389,6 +422,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summar
   }
   std::vector<Warning> all = warnings_of(scenario, motion);
   if (!scenario.map && !is_free_motion(scenario, motion.end)) add_long_search(scenario, simulation, all);
+  add_close_encounter(scenario, simulation, all);
   add_no_numbers(summary, all);
   return all;
 }
@@ -408,7 +442,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
                                          ? fmt::format("exceeds the energy that the motion exchanges between T and V, "
                                                        "{:.3g}",
                                                        motion.exchanged.value_or(energy.exchanged))
-                                     : scale > 0 ? fmt::format("exceeds the energy scale, {:.3g}", scale)
+                                     : scale > 0 ? fmt::format("exceeds the energy scale of the start, {:.3g}", scale)
                                                  : std::string("has no scale, since the energy is 0 at the start"),
                                      scenario.request.problem,
                                      describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
@@ -422,6 +456,7 @@ std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& 
   if (motion.turns != nullptr && !is_free_motion(scenario, end)) add_long_step(scenario, motion, all);
   if (end.step > 0) add_fast_springs(scenario, all);
   if (all.empty() && end.step > 0) add_passing_particles(scenario, end, all);
+  if (all.empty() && end.step > 0) add_left_orbit(scenario, motion, all);
   if (motion.orbit != nullptr && motion.orbit->falls_into_centre &&
       has_fallen(scenario, motion.orbit->radial_period, end.time)) {
     // The apsidal angle is 0 only on a line. If the orbit falls although it has angular momentum, a little more of it

@@ -17,6 +17,8 @@ namespace hamflow {
 /// - long_step: dt is above a tenth of the shortest period seen, or of the known period of the orbit if none was seen;
 /// - parted_copies: the two copies of the state that tao2 and tao4 carry have separated;
 /// - falls_into_centre: the orbit reaches a singular centre before the run ends;
+/// - left_orbit: the distance from the centre at the end is not near the orbit of the start;
+/// - close_encounter: two bodies came so close that a splitting into Kepler motions is inaccurate;
 /// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary complete except for its warnings   @param turns null: nothing watched for steps that are too long
 std::vector<Warning> warnings_of(const Scenario& scenario, const Summary& summary, const Simulation& simulation,
@@ -30,10 +32,10 @@ struct WatchedMotion {
   const TurningPointObserver* turns = nullptr;  // null: nothing watched for steps that are too long
   std::vector<WallCount> walls{};               // number of bounces off each wall
   std::int64_t steps = 0;
-  double mean_step = 0;               // mean of steps of varying length; 0: unknown
+  double mean_step = 0;               // mean of steps of varying size; 0: unknown
   std::optional<double> exchanged{};  // EnergyExchange::typical()
 };
-/// Returns the same warnings without no_number.
+/// Returns the same warnings without close_encounter and no_number.
 std::vector<Warning> warnings_of(const Scenario& scenario, const WatchedMotion& motion);
 /// Returns a warning if particles of a gas may pass through each other within a step; else empty.
 /// @param problem problem of the request

@@ -126,7 +126,7 @@ class Certify(CommandCase):
         self.assertEqual(found["drift"], done["certificate"]["drift"])
 
     def test_wrong_files(self):
-        self.assertIn("does the file exist?", self.refused("nothing.csv", "t", "E", status=3))
+        self.assertIn("No such file or directory", self.refused("nothing.csv", "t", "E", status=3))
         self.assertIn("is a folder", self.refused(".", "t", "E", status=3))
         for text, words in [
                 ("", "the file is empty"), ("\n\n", "the file is empty"), ("t,E\n", "no numbers"),

@@ -163,7 +163,7 @@ steps = 100
         self.assertIn("rattle, rattle4", self.refused(self.pendulum(method="cg")))
         form = PLANE + '\nconstraint_form = "multiplier"'
         for method in ("cg", "verlet", "rattle", "euler"):
-            self.assertIn("needs the gradient of an H, which the field with multipliers is not",
+            self.assertIn("needs the gradient of H, but the field with multipliers is not a gradient",
                           self.refused(self.pendulum(form, method)))
         for key, value in (("dimension", "3"), ("constraint_form", '"manifold"')):
             text = self.refused(self.pendulum(ANGLE + f"\n{key} = {value}", "verlet"))

@@ -158,7 +158,7 @@ class Gas(GasCase):
         box = 'container = { kind = "box", size = [4.1, 4.3] }'
         self.write("gas.toml", GAS % box)
         notes = self.hamflow("run", "gas.toml", "--out", "none", "--set", "run.arithmetic=lattice").stderr
-        self.assertEqual(notes.count("half a unit of the lattice"), 1, notes)
+        self.assertEqual(notes.count("half a grid spacing"), 1, notes)
 
     def test_the_last_sample_of_a_run(self):
         self.write("gas.toml", GAS % "")
@@ -382,7 +382,7 @@ class Gas(GasCase):
         self.assertEqual(error, in_double)
         listing = self.summary(*case, *lattice, "--set", "problem.scale='listing'", status=1)["error"]
         self.assertEqual((listing["kind"], listing["step"]), ("outside", 23))
-        self.assertRegex(listing["message"], r"particle \d+ was on or beyond .* in double \d steps? later: the lattice has no integer")
+        self.assertRegex(listing["message"], r"particle \d+ was on or beyond .* in double \d steps? later: on the lattice the kick")
         narrow = self.summary(*case, *lattice, "--set", "run.dt=0.0005", "--set", "run.steps=60", "--set",
                               "run.lattice={position='2^-52', momentum='2^-62'}", status=1)["error"]
         self.assertEqual(narrow["kind"], "lattice_overflow")

@@ -42,9 +42,9 @@ class Edges(CommandCase):
         """Edges are rounded as the start is, and told; one that would vanish leaves no box, and the cut-off is checked again."""
         for unit, moved in (("2^-3", "0.0499"), ("2^-40", "1.8")):
             told = self.told(PERIODIC % 3, "run.arithmetic=lattice", f"run.lattice.position={unit}", status=0)
-            self.assertIn("the edges of the periodic box are rounded to whole units of the lattice, by up to " + moved, told)
+            self.assertIn("the edges of the periodic box are rounded to whole grid spacings, by up to " + moved, told)
         told = self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=8")
-        self.assertIn("run.lattice.position: found a unit of 8 for a periodic box whose edge 2.7 is 0.3375 units and would be rounded to 0; allowed units", told)
+        self.assertIn("run.lattice.position: found the grid spacing 8 for a periodic box whose edge 2.7 is 0.3375 spacings and would be rounded to 0; allowed spacings", told)
         self.assertIn("too short for problem.cutoff", self.told((PERIODIC % 3).replace("1.3", "2"),
                                                                "run.arithmetic=lattice", "run.lattice.position=2^-1"))
         self.assertNotIn("note", self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=2^-53", status=0))

@@ -162,7 +162,7 @@ class Measures(CommandCase):
                                 "--set", "run.steps=500", *arguments)
             return json.loads(done.stdout)["rows"]
 
-        # What a method carries from step to step, an iteration's start or a step length of its own, is the run's too.
+        # What a method carries from step to step, an iteration's start or a step size of its own, is the run's too.
         for method in ("stv4", "cg(1,5)", "dop853", "rk4"):
             for count in ("1", "true"):
                 sets = ("--set", f"run.lyapunov={count}", "--set", f"method.name={method}")

@@ -274,7 +274,7 @@ class Problems(CommandCase):
             ('name="double-pendulum"\nangles="absolut"\ninitial={q=[0,0],p=[0,0]}', ("did you mean absolute",)),
             ('name="pendulum"\nlength=0\ninitial={q=[0],p=[0]}', ("problem.length", "positive")),
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,0,0],p=[0,0,0,0]}', ("bodies 1 and 2 at one point",)),
-            ('name="n-body"\nmasses=[1,0]\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "positive")),
+            ('name="n-body"\nmasses=[1,-1]\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses",)),
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1],p=[0,0,0]}', ("4 numbers in the plane, 6 in space",)),
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1,0],p=[0,0,0,0,0,0]}', ("the number of entries of q",)),
             ('name="n-body"\nmasses=[]\ninitial={q=[],p=[]}', ("problem.masses",)),

@@ -68,7 +68,7 @@ class Shards(CommandCase):
         summary = json.loads(done.stdout)
         self.assertEqual((summary["status"], summary["members"], summary["done"], summary["unfinished"]),
                          ("interrupted", 23, 6, 17))
-        self.assertIn("members are missing of the shards 0/4, 2/4, 3/4", done.stderr)
+        self.assertIn("members are missing from the shards 0/4, 2/4, 3/4", done.stderr)
         table = (self.folder / "x/sweep.csv").read_text()
         self.assertEqual(table.count("not_run"), 17)
         # The rest by another number of shards, and by one process.
@@ -138,7 +138,7 @@ class Shards(CommandCase):
                 (("s.toml", "--merge", "x"), "found --merge with a scenario"),
                 (("--merge", "x", "--resume"), "found --merge with --resume"),
                 (VARY, "scenario: missing; allowed a TOML file, or --merge DIR"),
-                (("s.toml",), "--vary: error: found none")):
+                (("s.toml",), "--vary: error: missing")):
             self.assertIn(message, self.sweep(*words, status=2).stderr)
         for words, message in (
                 (("--merge", "nowhere"), "found no sweep in nowhere"),

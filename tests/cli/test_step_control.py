@@ -1,4 +1,4 @@
-"""step_control = "reversible": what a run with steps of varying length leaves, and what it is refused."""
+"""step_control = "reversible": what a run with steps of varying size leaves, and what it is refused."""
 
 import csv
 import json
@@ -130,7 +130,7 @@ class StepControl(CommandCase):
 
     def test_refusals(self):
         for arguments, words in (
-            (("--set", "run.t_end=40"), ("run.t_end", "allowed steps", "steps of varying length")),
+            (("--set", "run.t_end=40"), ("run.t_end", "allowed steps", "steps of varying size")),
             (("--set", "run.record=[0, 1]"), ("run.record", "allowed record_every")),
             (("--set", "run.lyapunov=true"), ("run.lyapunov", "step_control = \"fixed\"")),
             (("--set", "run.eigenvalues=true"), ("run.eigenvalues", "not differentiated")),

@@ -56,6 +56,16 @@ class Warnings(CommandCase):
         self.assertEqual(self.warned(vortices, "tao4(omega=10000)", "dt = 1e-5\nsteps = 20000"), [])
         self.assertEqual(self.warned(vortices, "gauss(2)", run), [])
 
+    def test_a_run_that_left_its_orbit(self):
+        """At the pericentre of a narrow ellipse |T| + |V| is 200 |H|, so that the energy error stays below its scale."""
+        narrow = 'name = "central-force"\npotential = "kepler"\norbit = { kind = "ellipse", r_per = 0.01, r_aph = 1.0 }'
+        for coordinates in ("cartesian", "polar"):
+            problem = narrow + f'\ncoordinates = "{coordinates}"'
+            method = "dop853(step_control=fixed)" if coordinates == "polar" else "kahan-li8"
+            self.assertIn("left_orbit", self.warned(problem, method, "dt = 0.01\nsteps = 20000"), coordinates)
+            self.assertEqual(self.warned(problem, "dop853", "dt = 0.001\nsteps = 300"), [], coordinates)
+        self.assertIn("left_orbit", self.warned(KEPLER, "euler", "dt = 0.2\nsteps = 3500"))
+
     def test_a_run_too_short_to_see_a_period_knows_that_of_its_orbit(self):
         self.assertIn("long_step", self.warned(KEPLER, "kahan-li8", f"dt = {PERIOD / 8}\nsteps = 3"))
         self.assertEqual(self.warned(KEPLER, "kahan-li8", f"dt = {PERIOD / 40}\nsteps = 3"), [])

@@ -360,6 +360,7 @@ TEST(ReferenceSolution, EveryProblemHasOneInEveryArithmetic) {
     EXPECT_GE(digits_beyond_double(reference_arithmetic(arithmetic)), digits_beyond_double(arithmetic) + 10);
   }
   for (const ProblemEntry& problem : problems()) {
+    if (problem.info.name == "socket") continue;  // it has no forces without a client
     Request request;
     request.problem = problem.info.name;
     for (const auto& [key, value] : problem.info.variant) request.variant[key] = value;

@@ -233,7 +233,7 @@ TEST(LookAhead, ChangesNothing) {
     EXPECT_NE(ahead.q, now.q);
     EXPECT_EQ(ahead.effort.force, now.effort.force);
     EXPECT_EQ(ahead.effort.linear_solves, now.effort.linear_solves);
-    // A step's own time gives that step's state; of steps of varying length it is no multiple of dt.
+    // A step's own time gives that step's state; of steps of varying size it is no multiple of dt.
     if (observed->method().varies_steps) continue;
     ASSERT_EQ(observed->look_ahead("20*(" + request.dt + ")", ahead), Outcome::done);
     EXPECT_EQ(ahead.q, now.q);

@@ -69,6 +69,7 @@ TEST(Problem, EnergyAndInvariantsAreConstantAlongTheExactFlow) {
     const std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
     const Region region = region_of(problem.info.name, variant);
     if (problem.info.name == "solar-system") continue;  // as n-body
+    if (problem.info.name == "socket") continue;        // it has no forces without a client
     const MethodSpec method = parse_method(refusal(parse_method("rk4"), problem).empty() ? "rk4" : "rattle");
     const auto map = step_map_on(region, method);
     const State<long double> start(region.centre.begin(), region.centre.end());

@@ -175,7 +175,7 @@ class WithoutSaltation final : public StepMap {
     request.dt = shortest(h);
     const auto run = make_simulation(request);
     Bounce met;
-    run->tell_bounces([&](const Bounce& bounce) { met = bounce; });
+    run->on_bounce([&](const Bounce& bounce) { met = bounce; });
     (void)run->advance(1);
     std::vector<State<double>> columns(4, State<double>(4));
     for (std::size_t k = 0; k < 4; ++k) columns[k][k] = 1;

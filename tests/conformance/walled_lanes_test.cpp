@@ -102,7 +102,7 @@ TEST(WalledSteps, WhoIsToldOfBouncesHearsOfAll) {
     std::vector<std::byte> bits[2];
     for (const bool in_a_block : {false, true}) {
       const auto simulation = make_simulation(t_tube("stv4", rule, "0.01"));
-      simulation->tell_bounces([&](const Bounce& bounce) { told[in_a_block].push_back(bounce); });
+      simulation->on_bounce([&](const Bounce& bounce) { told[in_a_block].push_back(bounce); });
       constexpr int steps = 4000;
       for (int i = 0; i < (in_a_block ? 1 : steps); ++i) {
         ASSERT_EQ(simulation->advance(in_a_block ? steps : 1), Outcome::done);

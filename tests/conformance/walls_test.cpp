@@ -93,7 +93,7 @@ TEST_P(EveryRule, OnlyTheRunTellsOfItsBounces) {
   const auto plain = make_simulation(t_tube(method, rule, "0.01"));
   const auto watched = make_simulation(t_tube(method, rule, "0.01"));
   std::vector<Bounce> told;
-  watched->tell_bounces([&](const Bounce& bounce) { told.push_back(bounce); });
+  watched->on_bounce([&](const Bounce& bounce) { told.push_back(bounce); });
   for (int i = 0; i < 400; ++i) {
     ASSERT_EQ(plain->advance(1), Outcome::done);
     ASSERT_EQ(watched->advance(1), Outcome::done);
@@ -133,7 +133,7 @@ TEST(Walls, ABounceStandsOnItsWall) {
   for (const char* method : {"stv4", "cg(2,auto)", "gauss(3)", "rk4", "dop853"}) {
     const auto simulation = make_simulation(t_tube(method, WallRule::event, "0.01"));
     double furthest = 0;
-    simulation->tell_bounces([&](const Bounce& bounce) {
+    simulation->on_bounce([&](const Bounce& bounce) {
       const double at[2][2] = {{-1, 1}, {0.1, 2.1}};
       furthest =
           std::max(furthest, std::abs(bounce.q[bounce.coordinate] - at[bounce.coordinate][bounce.side < 0 ? 0 : 1]));

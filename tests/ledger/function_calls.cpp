@@ -15,10 +15,11 @@ void note_call() { was_called.store(true, std::memory_order_relaxed); }
 void note_double_double() { was_called_in_double_double.store(true, std::memory_order_relaxed); }
 }  // namespace
 
-// The functions that are not correctly rounded. The same names stand in tests/CMakeLists.txt.
+// The functions that are not correctly rounded. The same names stand in tests/CMakeLists.txt. log10 is left out:
+// hamflow and toml++ use it for texts only.
 #define HAMFLOW_TRIGONOMETRIC(X) X(sin) X(cos) X(tan) X(asin) X(acos) X(atan)
 #define HAMFLOW_HYPERBOLIC(X) X(sinh) X(cosh) X(tanh) X(asinh) X(acosh) X(atanh)
-#define HAMFLOW_EXPONENTIAL(X) X(exp) X(exp2) X(expm1) X(log) X(log2) X(log10) X(log1p) X(cbrt)
+#define HAMFLOW_EXPONENTIAL(X) X(exp) X(exp2) X(expm1) X(log) X(log2) X(log1p) X(cbrt)
 #define HAMFLOW_FUNCTIONS_OF_TWO(X) X(pow) X(atan2) X(hypot)
 
 // NOLINTBEGIN: the linker's names

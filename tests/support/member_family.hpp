@@ -1,4 +1,4 @@
-// Members of a sweep: starts, parameters and step lengths of their own, and the same members alone.
+// Members of a sweep: starts, parameters and step sizes of their own, and the same members alone.
 #pragma once
 
 #include "hamflow/run/catalog.hpp"

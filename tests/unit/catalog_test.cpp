@@ -8,6 +8,7 @@
 #include "../support/near.hpp"
 #include "hamflow/detail/run/splitting_named.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/socket.hpp"
 #include "hamflow/run/state_names.hpp"
 
 namespace hamflow {
@@ -51,10 +52,14 @@ TEST(Catalog, ProblemsAreTheFilesOfTheFolders) {
         if (key == "potential") potentials.insert(value);
       }
     } else if (entry.info.name != "formula" && entry.info.name != GasKeys::problem &&
-               entry.constraint_form.empty()) {  // texts, not files
+               entry.info.name != SocketKeys::problem && entry.constraint_form.empty()) {  // texts, not files
       std::string name = entry.info.name;
       for (const auto& [key, value] : entry.info.variant) {
-        if (value != "generalised") name += "-" + value;  // beside Cartesian coordinates, which are texts
+        if (key == "planets") {
+          if (value == "all") name = "whole-" + name;
+        } else if (value != "generalised") {  // beside Cartesian coordinates, which are texts
+          name += "-" + value;
+        }
       }
       found.insert(name);
     }

@@ -38,7 +38,7 @@ std::string refused(const ProblemEntry& entry, const Texts& parameters, const St
   request.parameters = all;
   request.start = start;
   const Frame state = entry.start(request);
-  if (const std::string why_not = entry.refused_start(all, state.q); !why_not.empty()) return why_not;
+  if (const StartRefusal refusal = entry.refused_start(all, state.q); !refusal.message.empty()) return refusal.message;
   return entry.regular(all, state.q, state.p) ? "" : "not regular";
 }
 StartSpec state_of(const std::vector<double>& z) {

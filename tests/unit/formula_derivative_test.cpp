@@ -202,11 +202,10 @@ std::string complaint(const FormulaTexts& texts) {
 }
 
 TEST(FormulaTexts, AreCheckedByKey) {
-  EXPECT_EQ(complaint({}), "coordinates: found none; allowed one or more, such as [\"x\", \"y\"]");
-  EXPECT_EQ(complaint({.coordinates = {"x"}}),
-            "hamiltonian: found none; allowed hamiltonian, or kinetic and potential");
+  EXPECT_EQ(complaint({}), "coordinates: missing; allowed one or more, such as [\"x\", \"y\"]");
+  EXPECT_EQ(complaint({.coordinates = {"x"}}), "hamiltonian: missing; allowed hamiltonian, or kinetic and potential");
   EXPECT_EQ(complaint({.coordinates = {"x"}, .kinetic = "p_x^2"}),
-            "potential: found none; allowed hamiltonian, or kinetic and potential");
+            "potential: missing; allowed hamiltonian, or kinetic and potential");
   EXPECT_EQ(complaint({.coordinates = {"x"}, .hamiltonian = "p_x^2", .potential = "x"}),
             "hamiltonian: found together with potential; allowed hamiltonian, or kinetic and potential");
   EXPECT_EQ(complaint({.coordinates = {"x"}, .kinetic = "p_x^2 + x", .potential = "x"}),

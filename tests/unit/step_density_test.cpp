@@ -1,4 +1,4 @@
-// Reversible steps of varying length: against their definition, their order, the way back, and broken recurrences.
+// Reversible steps of varying size: against their definition, their order, the way back, and broken recurrences.
 #include "hamflow/detail/methods/step_density.hpp"
 
 #include <gtest/gtest.h>
@@ -290,7 +290,7 @@ struct Deaf : Sound {
   using Sound::Sound;
   void turn(double) {}
 };
-/// The length of a step from the point where it begins.
+/// The size of a step from the point where it begins.
 struct FromItsBeginning : Sound {
   using Sound::Sound;
   double length() const { return own_; }

@@ -14,7 +14,7 @@ namespace {
 
 using test::epsilon;
 using Space = Vector<double, 3>;
-using Spaces = std::vector<Space>;
+using Spaces = PooledList<Space>;
 
 /// The outer planets, in astronomical units and days, with their masses times `share`.
 struct Planets {

@@ -40,30 +40,30 @@ void claim_two_to_one(Study& study) {
     means.push_back(spread_of(of_step).mean);
     errors.push_back(spread_of(of_step).standard_error());
   }
-  study.claim(
-      {"one_to_one",
-       "each state is reached from one state only, as by every reversible or symplectic step, also with the rule "
-       "of pages 84 and 103",
-       "robust symplectic algorithms", "111"},
-      none_of("two-to-one rejections of 10^9, or pairs of states that are sent to one"),
-      {{1e9 * means[1], 3e9 * errors[1], "share of the layer before the walls, dt = 0.01, StV4, eps = 0.6"},
-       explicit_pair()},
-      Grounds::ways);
+  study.claim({"one_to_one",
+               "each state is reached from only one state, as with every reversible or symplectic step, also with the "
+               "rule of pages 84 and 103",
+               "robust symplectic algorithms", "111"},
+              none_of("two-to-one rejections among 10^9, or pairs of states with the same image"),
+              {{1e9 * means[1], 3e9 * errors[1], "share of the layer before the walls, dt = 0.01, StV4, eps = 0.6"},
+               explicit_pair()},
+              Grounds::ways);
   const Spread power = spread_of(powers);
-  TextTable rates_of{"two_to_one_rates",
-                     "Two-to-one rejections of 10^9, by the geometry of the layers before the walls, StV4, eps = 0.6",
-                     {"dt", "of 10^9", "standard error"},
-                     {}};
+  TextTable rates_of{
+      "two_to_one_rates",
+      "Two-to-one rejections among 10^9, by the geometry of the layers before the walls, StV4, eps = 0.6",
+      {"dt", "number among 10^9", "standard error"},
+      {}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     rates_of.rows.push_back(
         {fmt::format("{:g}", steps[i]), fmt::format("{:.3g}", 1e9 * means[i]), fmt::format("{:.2g}", 1e9 * errors[i])});
   }
   study.table(std::move(rates_of));
-  study.note(
-      fmt::format("Their share falls like dt to the power {:.2f} +- {:.2f} (3 standard errors) from dt = 0.01 to "
-                  "0.001: forward and "
-                  "backward step differ by O(dt^3) in a layer of width O(dt), so that 2 is expected.",
-                  power.mean, 3 * power.standard_error()));
+  study.note(fmt::format(
+      "The share of two-to-one rejections falls like dt to the power {:.2f} +- {:.2f} (3 standard errors) from "
+      "dt = 0.01 to 0.001. A power of 2 is expected, because the forward and the backward step differ by "
+      "O(dt^3) in a layer of width O(dt).",
+      power.mean, 3 * power.standard_error()));
   study.keep({"two_to_one", {{"dt", {steps.begin(), steps.end()}}, {"share", means}, {"error", errors}}});
 }
 
@@ -177,19 +177,20 @@ void draw_blocks(Study& study, const Counts& reject) {
     page.panels.push_back(panel_of_blocks(one));
     starts += (starts.empty() ? "" : "; ") + name_of_start(one.seen.start);
   }
-  study.draw("figure",
-             "Block means of the light body's kinetic energy of captured runs, reject, up to the capture and on: large "
-             "dots mark blocks with a two-to-one rejection (counted up to the capture). " +
-                 starts,
-             std::move(page));
+  study.draw(
+      "figure",
+      "Block means of the light body's kinetic energy in captured runs with the rule reject, before and after the "
+      "capture. Large dots mark blocks with a two-to-one rejection; they are counted up to the capture. " +
+          starts,
+      std::move(page));
 }
 
 void tell_captures(Study& study, const Counts& reject) {
   TextTable table{
       "captures",
-      "Runs that reject captured, the first 16",
-      {"start", "first regular block", "blocks from the last two-to-one rejection to it",
-       "two-to-one rejections up to it", "exponent over 2000 time units", "over 8000", "mean K1 before", "after"},
+      "The first 16 runs that were captured with the rule reject",
+      {"start", "first regular block", "blocks between the last two-to-one rejection and this block",
+       "two-to-one rejections before it", "exponent over 2000 time units", "over 8000", "mean K1 before", "after"},
       {}};
   for (const Captured& one : reject.captured) {
     if (one.seen.two_to_one.empty()) continue;  // not run again
@@ -243,8 +244,9 @@ void claim_of_others(Study& study, const Counts& reject, const Counts& others, c
   }
   study.claim(
       {"captures_" + others.name,
-       "the late motion is reached by " + what + ", as often in as many bounces as by the listing's rule", "physics"},
-      at_least(0.5, "captures over those expected at reject's rate; of fewer than 10 expected nothing follows"),
+       "with " + what + " runs reach the late motion as often per bounce as with the listing's rule", "physics"},
+      at_least(0.5,
+               "captures divided by those expected at reject's rate; nothing follows if fewer than 10 are expected"),
       measured, Grounds::program, first == 0 ? "runs in which reject captures: the default size" : decided_by);
 }
 
@@ -254,7 +256,7 @@ void tell_counts(Study& study, const std::vector<const Counts*>& all) {
       fmt::format("Captures by wall rule: block means that stay for {:g} time units and more, and exponents of "
                   "at most 3 log T/T",
                   least_stay),
-      {"rule", "dt", "runs", "steps", "bounces", "captures", "as regular, for less time", "expected at reject's rate",
+      {"rule", "dt", "runs", "steps", "bounces", "captures", "regular for less time", "expected at reject's rate",
        "stopped early", "largest energy error"},
       {}};
   for (const Counts* one : all) {
@@ -297,9 +299,9 @@ void tell_brief(Study& study, const Counts& counts) {
     if (leaves(study, counts, counts.brief[k], fmt::format("{}_brief_{}", counts.name, k + 1))) ++left;
   }
   study.note(fmt::format(
-      "With {} {} of {} runs ended as regular as captured ones, but had been so for less than {:g} time "
-      "units, which no capture is: motions of the true flow stick to its islands for such times. Of {} that "
-      "were continued for another {:g} {} left again.",
+      "With the rule {}, {} of {} runs ended as regular as captured runs, but had been regular for less than {:g} "
+      "time units. They do not count as captures, because motions of the true flow stick to its islands for such "
+      "times. {} of them were continued for another {:g} time units; {} left the regular motion again.",
       counts.name, counts.brief.size(), counts.runs, least_stay, looked_at, least_stay, left));
 }
 
@@ -319,10 +321,11 @@ void claim_captures(Study& study, Counts& reject) {
                            least_stay)),
       blocks < 2 * tube_least_blocks
           ? std::vector<Measured>{}
-          : std::vector<Measured>{{static_cast<double>(reject.captured.size()), 0,
-                                   fmt::format(
-                                       "{} of {} runs of {} blocks with reject; {} more regular in their means alone",
-                                       reject.captured.size(), reject.runs, blocks, reject.regular_blocks_only)}},
+          : std::vector<
+                Measured>{{static_cast<double>(reject.captured.size()), 0,
+                           fmt::format(
+                               "{} of {} runs of {} blocks with reject; {} more are regular in their means only",
+                               reject.captured.size(), reject.runs, blocks, reject.regular_blocks_only)}},
       Grounds::program, "runs of some 10^7 steps: the default size");
   double without = 0, events = 0, tried = 0, longest = 0;
   const auto looked_at = std::min<std::size_t>(reject.captured.size(), 16);  // each is run again
@@ -340,9 +343,10 @@ void claim_captures(Study& study, Counts& reject) {
   if (looked_at > 0) {
     causes.push_back(
         {without, 0,
-         fmt::format("the first {} captures, the rejection at most {:.2g} blocks before; one happens every {:.3g} "
-                     "blocks, so that by chance a share of {:.2g} would have it there",
-                     looked_at, longest, tried / std::max(events, 1.0), 1 - std::exp(-events / std::max(tried, 1.0)))});
+         fmt::format(
+             "the first {} captures; the rejection happened at most {:.2g} blocks before. One happens every {:.3g} "
+             "blocks, so by chance a share of {:.2g} of the captures would follow one so soon",
+             looked_at, longest, tried / std::max(events, 1.0), 1 - std::exp(-events / std::max(tried, 1.0)))});
   }
   study.claim({"cause", "each capture happens in the block of 10^6 steps of a two-to-one rejection", "artefact"},
               none_of("captures without such a rejection in the block before the first regular one"), causes,
@@ -360,11 +364,11 @@ void claim_true_flow(Study& study, const Counts& reject) {
   }
   study.claim(
       {"true_flow_of_captured", "the late motions are regular orbits of the true flow", "physics"},
-      none_of("captured motions that are not, by their exponents: more than 3 log T/T with located bounces"),
+      none_of("captured motions that are not regular: exponents of more than 3 log T/T with located bounces"),
       looked_at == 0
           ? std::vector<Measured>{}
           : std::vector<Measured>{{static_cast<double>(others), 0,
-                                   fmt::format("the first {} that reject captured, continued with event and stv4",
+                                   fmt::format("the first {} runs captured with reject, continued with event and stv4",
                                                looked_at)}},
       Grounds::program, "runs in which reject captures: the default size");
 }
@@ -408,7 +412,7 @@ void carry_out(Study& study) {
   claim_of_others(study, reject, event, "an exactly located wall event", "longer runs: --full");
   claim_of_others(study, reject, soft, "soft walls of exponent 6", "longer runs: --full");
   const std::string walk =
-      "no longer run, since its energy walks off by 1 % before: the theorem decides, which has no exception";
+      "no longer run, because its energy is off by 1 % before its end; the theorem decides, and has no exception";
   claim_of_others(study, reject, mirror, "the one-to-one mirror", walk);
   claim_of_others(study, reject, lattice, "the mirror on the lattice, a permutation", walk);
   claim_of_others(study, reject, element, "cg(2) with events, which keeps the energy",
@@ -417,9 +421,9 @@ void carry_out(Study& study) {
   tell_brief(study, soft);
   tell_counts(study, {&reject, &event, &soft, &mirror, &lattice, &element});
   study.note(
-      "A one-to-one map that preserves volume enters a set R of finite volume with Psi(R) in R from a null set only: "
-      "the true flow and the mirror, on the lattice a permutation, capture nothing. Of event, which preserves no "
-      "volume, only counts decide.");
+      "A one-to-one map Psi that preserves volume can enter a set R of finite volume with Psi(R) in R only from a null "
+      "set. The true flow and the mirror, which is a permutation on the lattice, therefore capture nothing. The rule "
+      "event does not preserve volume, so only counts can decide.");
 }
 
 }  // namespace capture

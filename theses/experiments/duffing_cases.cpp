@@ -92,8 +92,8 @@ void claim_dwelling(Study& study, const Trajectory& figure) {
   for (std::size_t i = 0; i < figure.size() && figure.t[i] <= 1; ++i) {
     distance = std::max(distance, std::abs(figure.q[i][0] - 4 / std::cosh(std::sqrt(8.0) * figure.t[i])));
   }
-  study.note(fmt::format("From the exact separatrix 4/cosh(sqrt(8) t) the dots are at most {:.2g} off up to t = 1.",
-                         distance));
+  study.note(
+      fmt::format("Up to t = 1 the dots are at most {:.2g} from the exact separatrix 4/cosh(sqrt(8) t).", distance));
 }
 
 /// The exact motion at the times of a run, by elliptic functions: of x and of its rate.
@@ -174,7 +174,8 @@ void carry_out(const Case& c, Study& study) {
   const double energy = figure.report.energy.initial;
   const double rounding = 64 * 0x1p-53 * scale;
   const std::string of = std::string(c.id).substr(1);
-  const std::string decimals = "half a unit of the second decimal; one without decimals allows anything near it";
+  const std::string decimals =
+      "half a unit of the second decimal; a number printed without decimals allows anything near it";
   study.claim(
       {"energy", fmt::format("the motion of figure {} has the energy {}", of, c.energy), c.energy, c.page_of_energy},
       within(std::stod(c.energy), 0.005, decimals), {{energy, rounding, "H of the start"}});
@@ -206,7 +207,8 @@ void carry_out(const Case& c, Study& study) {
     const Trajectory exact =
         study.run("reference", scenario_of(c.id), in_steps("0.02", std::lround(t_end / 0.02), 1, by_series));
     claim_second_order(
-        study, {"order", "the computed motion comes to the exact one as dt becomes smaller", "phase curve, of one dt"},
+        study,
+        {"order", "the computed motion approaches the exact one as dt becomes smaller", "phase curve, of one dt"},
         {largest_distance(element(study, c, 4), exact), largest_distance(element(study, c, 8), exact),
          1e-11 * furthest});
   } else {

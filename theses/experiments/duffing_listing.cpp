@@ -84,7 +84,7 @@ void carry_out(Study& study) {
     for (const double dt : {0.1, 0.05, 0.02, 0.01}) {  // the text names no dt for these figures
       const Motion printed = motion(c, true, dt), right = motion(c, false, dt);
       if (printed.converged) fewest = std::min(fewest, static_cast<double>(printed.most));
-      counts += fmt::format("{}dt = {:g}: at most {}, {:.3g} on average, arguments in their order {}, {:.3g}",
+      counts += fmt::format("{}dt = {:g}: at most {}, {:.3g} on average, with the arguments in order {} and {:.3g}",
                             counts.empty() ? "" : "; ", dt, printed.most,
                             printed.total / static_cast<double>(printed.r.size()), right.most,
                             right.total / static_cast<double>(right.r.size()));
@@ -95,7 +95,7 @@ void carry_out(Study& study) {
       more_energy = std::max(more_energy, printed.energy_error / right.energy_error);
       more_iterations = std::max(more_iterations, printed.total / steps_printed / (right.total / steps));
       study.note(
-          fmt::format("Figure {}, dt = {:g}: |H - H0| at most {:.2g} as printed, {:.2g} with the arguments in their "
+          fmt::format("Figure {}, dt = {:g}: |H - H0| at most {:.2g} as printed, {:.2g} with the arguments in "
                       "order.",
                       c.figure, dt, printed.energy_error, right.energy_error));
     }
@@ -107,25 +107,23 @@ void carry_out(Study& study) {
           "the program of appendix B as printed takes at most three iterations a step, with some dt: its axis of "
           "iterations ends at 3.5",
           "axis([-4.2 4.2 0 3.5])", "139",
-          at_most(3, "counted over every step; the best of four dt, as the text names none"), fewest, counts);
+          at_most(3, "counted over every step; the best of four dt, because the text names none"), fewest, counts);
     claim("same_root_",
-          "called first as printed, with lambda and k in each other's place, the residual leads to the root of "
-          "equation 2.189 all the same",
+          "although the residual is first called as printed, with lambda and k exchanged, the iteration finds the "
+          "root of equation 2.189",
           calls, pages_of_calls,
-          at_most(1e-6, "two roots to 1e-13 at each step, which grow where the motion is unstable"), apart,
+          at_most(1e-6, "two roots to 1e-13 at each step; their difference grows where the motion is unstable"), apart,
           "largest difference of r from that with both calls in the order of the function's heading");
-    claim(
-        "order_costs_no_energy_",
-        "called first as printed, with lambda and k in each other's place, the residual leaves no larger energy error "
-        "than in the order of the function's heading",
-        calls, pages_of_calls, at_most(2, "ratio of both largest |H - H0|, which are roundings"), more_energy,
-        "the largest of four dt");
-    claim(
-        "order_costs_no_iterations_",
-        "called first as printed, with lambda and k in each other's place, the residual takes no more iterations than "
-        "in the order of the function's heading",
-        calls, pages_of_calls, at_most(1, "ratio of both mean iterations a step"), more_iterations,
-        "the largest of four dt");
+    claim("order_costs_no_energy_",
+          "if the residual is first called as printed, with lambda and k exchanged, the energy error is no larger than "
+          "with the order of the function's heading",
+          calls, pages_of_calls, at_most(2, "ratio of the two largest |H - H0|, which are at rounding level"),
+          more_energy, "the largest of four dt");
+    claim("order_costs_no_iterations_",
+          "if the residual is first called as printed, with lambda and k exchanged, Newton's method takes no more "
+          "iterations than with the order of the function's heading",
+          calls, pages_of_calls, at_most(1, "ratio of the two mean numbers of iterations per step"), more_iterations,
+          "the largest of four dt");
   }
 }
 

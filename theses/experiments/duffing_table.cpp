@@ -100,21 +100,21 @@ void carry_out(Study& study) {
     return Measured{static_cast<double>(count), 0, fmt::format("of {} motions, rkn8-s19: {}", draws, how)};
   };
   study.claim({"two", "for lambda < |lambda_inf| the phase curve has two zeros, +-sqrt(lambda + |lambda_inf|)", "2"},
-              none_of("counter-examples"), {told(two, "do not turn at both and only there")});
+              none_of("counter-examples"), {told(two, "do not turn at both zeros, and only there")});
   study.claim(
       {"three", "for lambda = |lambda_inf| the phase curve has three zeros, 0 and +-sqrt(2 |lambda_inf|)", "3"},
       none_of("counter-examples"),
       {told(three, fmt::format("do not come from r0 to r0/1000 as to a zero, r'/r = -w sqrt(1 - (r/r0)^2); with "
                                "lambda = |lambda_inf|/2, where r = 0 is no zero, {} do not",
                                told_apart)),
-       {static_cast<double>(not_three_roots), 0, "of their equations 2.184: have not three different roots"}});
+       {static_cast<double>(not_three_roots), 0, "of their equations 2.184 do not have three different roots"}});
   study.claim({"four", "for lambda > |lambda_inf| the phase curve has four zeros, +-sqrt(lambda +- |lambda_inf|)", "4"},
-              none_of("counter-examples"), {told(four, "do not turn at both of one side and only there")});
+              none_of("counter-examples"), {told(four, "do not turn at both zeros of one side, and only there")});
   study.note(fmt::format(
       "The table is taken for k > 0: its section is about oscillations (\"weil die Bewegung eine Schwingung ist\"), "
       "and "
-      "equation 2.215 has a root of mu/k. Then lambda > -|lambda_inf| follows. For k < 0, which table 2.4 counts in, "
-      "lambda may be less, and r never turns: {} zeros for k = -1, lambda = -2, |lambda_inf| = 1.",
+      "equation 2.215 has a root of mu/k. Then lambda > -|lambda_inf| follows. For k < 0, which table 2.4 includes, "
+      "lambda may be smaller, and r never turns: {} zeros for k = -1, lambda = -2, |lambda_inf| = 1.",
       zeros({1, -1, -2, 1})));
 }
 

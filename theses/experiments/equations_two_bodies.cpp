@@ -64,8 +64,9 @@ void of_motion(Study& study) {
         "2/m", *std::min_element(rate_off.begin(), rate_off.begin() + 3), "mu (m is a slip)", rate_off[3],
         between_samples);
   study.note(
-      "Equation 2.25 is tried on the ellipse of figure 2.9, mu = 2, with m1 = 3 and m2 = 6; the deviation that is told "
-      "is the least of the three readings, that of m = m1: 1/36.");
+      "Equation 2.25 is tested on the ellipse of figure 2.9, mu = 2, with m1 = 3 and m2 = 6. The deviation above is "
+      "the "
+      "smallest of the three readings: 1/36, for m = m1.");
   // The circle of figure 2.8 at phi = 90 degrees: l = 2, r = 2.
   const std::array<double, 2> printed{-1, 0}, p{-1, 0}, p_dot{0, -0.25};
   claim(study, "2.126", "41", "by equation 2.126 the time derivative of p on a circle is l/r (-sin, cos)",
@@ -84,7 +85,7 @@ void of_integrals(Study& study) {
   constexpr int points = 64;
   for (int i = 0; i < points; ++i) sum += pi / points;  // 1/sqrt((w - w1)(w2 - w)), by Gauss and Chebyshev
   claim(study, "2.36", "24",
-        "equation 2.36, dphi = dw/sqrt(...), has a Hooke ellipse go from pericentre to apocentre in a quarter turn",
+        "by equation 2.36, dphi = dw/sqrt(...), a Hooke ellipse takes a quarter turn from pericentre to apocentre",
         "without 1/2", std::abs(sum - pi / 2), "half of it, as equation 2.139 has", std::abs(sum / 2 - pi / 2));
   const double gamma = -1, beta = w1 + w2, alpha = -w1 * w2, from = 0.3, to = 0.6;
   const auto F = [&](double u) {
@@ -162,13 +163,14 @@ void of_closed_orbit(Study& study) {
   const auto returned = [](const Trajectory& t) {
     return std::hypot(t.q.back()[0] - t.q.front()[0], t.q.back()[1] - t.q.front()[1]);
   };
-  study.claim({"not_all_closed", "the bounded orbits of the linear potential are not all closed",
-               "gesamten begrenzten Bahnen nicht geschlossen", "56"},
-              at_least(0.01,
-                       "radians by which the angle of a radial period changes from one orbit to another: where it "
-                       "changes, all are open but those of special pairs (E, l)"),
-              {{std::abs(radial_period(1.5)[0] - radial_period(8)[0]), 1e-9, "r from 1 to 1.5 and from 1 to 8"}});
-  study.claim({"closed_exceptions", "there are special pairs (E, l) with a closed orbit, in the linear potential, too",
+  study.claim(
+      {"not_all_closed", "the bounded orbits of the linear potential are not all closed",
+       "gesamten begrenzten Bahnen nicht geschlossen", "56"},
+      at_least(0.01,
+               "change of the angle of a radial period from one orbit to another, in radians. If it changes, all "
+               "orbits are open except those of special pairs (E, l)"),
+      {{std::abs(radial_period(1.5)[0] - radial_period(8)[0]), 1e-9, "r from 1 to 1.5 and from 1 to 8"}});
+  study.claim({"closed_exceptions", "the linear potential also has special pairs (E, l) with a closed orbit",
                "mit Ausnahme spezieller Paare (E,l)", "26"},
               at_most(1e-6, "the distance at which the orbit of r from 1 to b returns after nine radial periods"),
               {{returned(series), 1e-9,
@@ -188,10 +190,10 @@ void of_closed_orbit(Study& study) {
     }
     return std::nan("");
   };
-  study.claim(
-      {"2.37", "for an orbit to be closed r(phi) = r(phi + 2 pi) is necessary, equation 2.37", "notwendig", "24"},
-      at_most(1e-3, "r after the first turn of that closed orbit less r at its start, linear between samples"),
-      {{after_a_turn(series) - 1, 1e-3, "Taylor series"}, {after_a_turn(other) - 1, 1e-3, "rkn8-s19"}}, Grounds::ways);
+  study.claim({"2.37", "an orbit is closed only if r(phi) = r(phi + 2 pi), equation 2.37", "notwendig", "24"},
+              at_most(1e-3, "r after the first turn of that closed orbit less r at its start, linear between samples"),
+              {{after_a_turn(series) - 1, 1e-3, "Taylor series"}, {after_a_turn(other) - 1, 1e-3, "rkn8-s19"}},
+              Grounds::ways);
 }
 
 }  // namespace equations_two_bodies

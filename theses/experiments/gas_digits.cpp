@@ -48,9 +48,9 @@ void claim_columns(Study& study) {
          fmt::format("{} particles, {} steps: {} digit{} lost in {} million evaluations: one in {} million",
                      row.side * row.side, row.steps, digits, digits == 1 ? "" : "s", row.evaluations, row.per_digit),
          fmt::format("10^{} of 10^-18; 1/{}", row.power, row.per_digit)},
-        within(digits, 0.5, "column 2 over column 4 against the digits of column 3, a power of ten: half a digit"),
+        within(digits, 0.5, "column 2 divided by column 4 is the number of digits lost by column 3, to half a digit"),
         {{value, value * 0.5 / row.per_digit, "of the printed numbers; +-: half a unit of column 4"}},
-        Grounds::identity, "the digits lost, which are printed as a power of ten");
+        Grounds::identity, "the digits lost with more places; a power of ten is printed");
   }
   study.claim({"evaluations", "the evaluations of column 2 are 3 N^2 for each of the steps there and back",
                "18, 36, 70, ..., 1400 million"},
@@ -98,14 +98,14 @@ Lost lost_by(Study& study, GasRun run, int starts) {
 
 /// An error of momenta, as a power of ten where it has one.
 std::string told_of(double momentum) {
-  if (momentum == 0) return "0: every one returns";
-  if (!std::isfinite(momentum)) return "none is a number";
+  if (momentum == 0) return "0: every momentum returns";
+  if (!std::isfinite(momentum)) return "not finite";
   return fmt::format("at most 10^{:.2f}", std::log10(momentum));
 }
 
 constexpr const char* no_step_of_theirs = "0.0001";
 
-/// A row for a step length and a scale: in double, and by the listed program where a particle passes the wall.
+/// A row for a step size and a scale: in double, and by the listed program where a particle passes the wall.
 struct Measurement {
   double mean = 0;
   double of_next = 0;  // how far one more start may be from the mean
@@ -125,12 +125,12 @@ std::optional<Measurement> measured_row(Study& study, const Row& row, const std:
   const bool is_selected = position.members < starts;
   const std::string who =
       lost.outside > 0
-          ? fmt::format("{} with particles outside, by the listing's program, which does not notice", lost.outside)
-      : is_selected ? "those in which no particle passes the wall, no sample of all"
-                    : "none with a particle outside";
-  return Measurement{
-      position.mean, is_selected ? infinite : range_of_next(position.members) * position.deviation,
-      fmt::format("{} of {} starts, {}; of momenta {}", position.members, starts, who, told_of(lost.momentum))};
+          ? fmt::format("{} with particles outside, by the listing's program, which does not detect them", lost.outside)
+      : is_selected ? "the starts in which no particle passes the wall, which are not a sample of all"
+                    : "no particle outside in any";
+  return Measurement{position.mean, is_selected ? infinite : range_of_next(position.members) * position.deviation,
+                     fmt::format("{} of {} starts, {}; mean error of momenta {}", position.members, starts, who,
+                                 told_of(lost.momentum))};
 }
 
 /// What three steps come to: 0.01 and 0.001, of which one is the thesis' own, and one with which no particle tunnels.
@@ -160,7 +160,7 @@ RowOfSteps claim_rows(Study& study, const Row& row, const std::string& scale) {
     std::vector<Measured> measured;
     if (found) {
       measured.push_back({found->mean, found->of_next + of_step,
-                          found->how + (tunnels ? "" : fmt::format("; +- {:.3g} of the step length", of_step))});
+                          found->how + (tunnels ? "" : fmt::format("; +- {:.3g} for the step size", of_step))});
     }
     study.claim({fmt::format("row_{}_{}_{}", row.name(), dt, scale),
                  fmt::format("{} particles, {} steps there and back, dt = {}, scale {}: power of ten of the mean error "
@@ -168,12 +168,12 @@ RowOfSteps claim_rows(Study& study, const Row& row, const std::string& scale) {
                              row.side * row.side, row.steps, dt, scale),
                  fmt::format("10^{}", row.power)},
                 within(row.power, 0.5,
-                       "a power of ten is printed; the thesis' start is one of many: where another one may lie, 95 %"),
+                       "a power of ten is printed; the uncertainty is the range in which another start lies with 95 %"),
                 measured, Grounds::program,
                 measured.empty() || !std::isfinite(of_step) ? "runs of the listed program: the default size"
                 : tunnels
-                    ? "the thesis' own start, which is not printed; more starts do not, where one differs from the "
-                      "next by powers of ten"
+                    ? "the thesis' own start, which is not printed; more starts cannot decide, because they differ by "
+                      "powers of ten"
                     : "the thesis' own start with its own step, 0.01 or 0.001; with this one no particle passes the "
                       "wall");
   }
@@ -207,7 +207,7 @@ void claim_rate(Study& study, int side, double printed, const std::string& scale
   if (rate.members > 1) {
     // Starts that were selected are no sample.
     measured.push_back({rate.mean, rate.members < starts ? infinite : 2 * rate.deviation + of_step,
-                        fmt::format("{} of {} starts; +- {:.2g} of the step length", rate.members, starts, of_step)});
+                        fmt::format("{} of {} starts; +- {:.2g} for the step size", rate.members, starts, of_step)});
   }
   study.claim({fmt::format("rate_{}_{}", side * side, scale),
                fmt::format("{} particles: a digit is lost in {:g} million evaluations, dt = 0.0001, scale {}",
@@ -251,11 +251,11 @@ void compare_arithmetics(Study& study) {
       if (name == "lattice") {
         std::vector<Measured> measured;
         if (!evaluations.empty()) measured.push_back({every_bit ? 0.0 : 1.0, 0, fmt::format("up to {} steps", most)});
-        study.claim(
-            {fmt::format("lattice_{}", side * side),
-             fmt::format("{} particles: the return is exact but for rounding: on the lattice it is exact", side * side),
-             "exact return"},
-            none_of("runs that do not return every bit"), measured, Grounds::program, "the default size");
+        study.claim({fmt::format("lattice_{}", side * side),
+                     fmt::format("{} particles: the return is exact except for rounding, so on the lattice it is exact",
+                                 side * side),
+                     "exact return"},
+                    none_of("runs that do not return every bit"), measured, Grounds::program, "the default size");
       }
       if (evaluations.empty()) continue;
       study.keep({fmt::format("lost_{}_{}", side * side, name),
@@ -272,14 +272,14 @@ void compare_arithmetics(Study& study) {
     }
     panel.x = figures::log_axis(across);
     panel.y = figures::fit_axis(up, figures::padding, {6});
-    panel.x_label = "pair forces computed, in millions";
+    panel.x_label = "pair forces, in millions";
     panel.y_label = fmt::format("digits lost, {} particles", side * side);
     panel.aspect = 0.7;
     page.panels.push_back(std::move(panel));
   }
   study.draw("figure",
-             "Digits lost there and back over pair forces computed, dt = 0.0001, scale per-side; below 0: what is "
-             "carried below the last digit came back too",
+             "Digits lost there and back over the number of pair forces, dt = 0.0001, scale per-side. Negative: digits "
+             "carried below the last one returned, too",
              std::move(page));
 }
 
@@ -293,8 +293,8 @@ void digits(Study& study) {
   }
   compare_arithmetics(study);
   study.note(
-      "Printed evaluations are 3 N^2 for each step, as listed; hamflow computes each force once, half as many, which "
-      "its own table counts.");
+      "The printed evaluations are 3 N^2 for each step, as in the listing. hamflow computes each pair force once, half "
+      "as many, and the table of hamflow counts these.");
 }
 
 constexpr double until = 0.6;
@@ -319,14 +319,15 @@ void claim_none(Study& study, const Study::Statement& statement, const std::stri
                 const std::string& how = {}) {
   std::vector<Measured> measured;
   if (of > 0) {
-    measured.push_back(seen_among(
-        number, of,
-        fmt::format("{} of {}, to t = {}{}{}", number, of, until, how,
-                    number > 0 ? ""
-                               : fmt::format("; with 95 % confidence at most {:.2g} % of all; +- for ten more",
-                                             100 * largest_share_unseen(of)))));
+    measured.push_back(
+        seen_among(number, of,
+                   fmt::format("{} of {}, to t = {}{}{}", number, of, until, how,
+                               number > 0 ? ""
+                                          : fmt::format("; with 95 % confidence at most {:.2g} % of all starts",
+                                                        100 * largest_share_unseen(of)))));
   }
-  study.claim(statement, none_of_all(counted), measured, Grounds::program, "59 starts and none against it: --full");
+  study.claim(statement, none_of_all(counted), measured, Grounds::program,
+              "59 starts without a counter-example: --full");
 }
 
 /// Page 80, remedy 1: a smaller step.
@@ -352,19 +353,20 @@ void claim_smaller_steps(Study& study, const std::string& scale) {
   }
   claim_none(study,
              {"smaller_dt_" + scale,
-              "with a tenth of the step particles stay inside at least as long, dt = 0.01, 0.001, 0.0001, 121 "
+              "with a tenth of the step size particles stay inside at least as long, dt = 0.01, 0.001, 0.0001, 121 "
               "particles, scale " +
                   scale,
               "remedy 1", "80"},
-             "starts in which a tenth of the step ends sooner", sooner, starts);
-  study.claim({"smallest_dt_" + scale,
-               "a smaller step helps: with dt = 0.0001 particles stay inside longer than with 0.01, 121 particles, "
-               "scale " +
-                   scale,
-               "remedy 1: \"Zeitschritt-Verkleinerung\", without a number", "80"},
-              longer.rule("starts in which they stay longer, by more than a step of 0.01,"),
-              {longer.measured(fmt::format("of {} starts; {} stay inside to t = {}", starts, inside, until))},
-              Grounds::program, "more starts");
+             "starts that end sooner with a tenth of the step size", sooner, starts);
+  study.claim(
+      {"smallest_dt_" + scale,
+       "a smaller step size helps: with dt = 0.0001 particles stay inside longer than with 0.01, 121 particles, "
+       "scale " +
+           scale,
+       "remedy 1: \"Zeitschritt-Verkleinerung\", without a number", "80"},
+      longer.rule("starts in which they stay longer, by more than a step of 0.01,"),
+      {longer.measured(fmt::format("of {} starts; {} stay inside to t = {}", starts, inside, until))}, Grounds::program,
+      "more starts");
 }
 
 /// Page 80, remedy 2: a higher power of the wall, by the listed program, whose factor S^-4 stays as it is.
@@ -402,20 +404,21 @@ void claim_exponents(Study& study, const std::string& scale) {
     return static_cast<int>(std::count_if(found.begin(), found.end(), [&](const Found& one) { return one.*what; }));
   };
   const std::string where =
-      ", the listing's factor S^-4 kept, dt = 0.001, where one passes with the power 1, 121 particles, scale " + scale;
+      ", if one passes with the power 1; factor S^-4 of the listing, dt = 0.001, 121 particles, scale " + scale;
   const std::string how = fmt::format(
-      ", by the listing's program; not counted: {}, in which two particles met within a step too long for them, and "
-      "one "
-      "flew off",
+      ", by the listing's program; {} starts are not counted, because two particles came so close that the step was "
+      "too "
+      "long and one flew off",
       count(&Found::is_after_collision));
   claim_none(study,
              {"exponent_later_" + scale, "the power 4 in place of 1 keeps particles inside longer" + where,
-              "remedy 2: -p qi/(r^2 - qi.qi)^(p + 1), in which no scale stands", "80"},
-             "starts in which they pass it no later", count(&Found::passes_no_later), count(&Found::counts), how);
+              "remedy 2: -p qi/(r^2 - qi.qi)^(p + 1), without a scale", "80"},
+             "starts in which a particle passes the wall no later", count(&Found::passes_no_later),
+             count(&Found::counts), how);
   claim_none(study,
-             {"exponent_" + scale, "with a suitable power of 2, 4, 8 in place of 1 none passes the wall" + where,
+             {"exponent_" + scale, "with a suitable power of 2, 4, 8 in place of 1 no particle passes the wall" + where,
               "remedy 2: \"mit p >= 1 einer geeigneten Potenz\"", "80"},
-             "starts with a particle outside, whatever the power", count(&Found::passes_with_all),
+             "starts in which a particle passes the wall with every power", count(&Found::passes_with_all),
              count(&Found::counts), how);
 }
 
@@ -454,12 +457,13 @@ void claim_gain(Study& study, const GasRun& run, int digits) {
          fmt::format("{} of {} starts, {} steps, {:.2g} digits lost in double{}", gain.members, starts, run.steps,
                      spread_of(gains.lost).mean, is_selected ? "; in the others a particle passes the wall" : "")});
   }
-  study.claim({fmt::format("compensation_{}_{}", run.start, run.dt),
-               fmt::format("compensated summation gains about as many digits as dt = {} has: {}; start {}", run.dt,
-                           digits, run.start),
-               fmt::format("{} digits", digits), "81"},
-              within(digits, 1, "digits gained in positions, of the order told: to one digit"), measured,
-              Grounds::program, starts == 0 ? "the default size" : "more starts, all of which keep inside");
+  study.claim(
+      {fmt::format("compensation_{}_{}", run.start, run.dt),
+       fmt::format("compensated summation gains about as many digits as dt = {} has decimal places: {}; start {}",
+                   run.dt, digits, run.start),
+       fmt::format("{} digits", digits), "81"},
+      within(digits, 1, "digits gained in positions, to one digit"), measured, Grounds::program,
+      starts == 0 ? "the default size" : "more starts, if all particles stay inside");
 }
 
 void remedies_and_compensation(Study& study) {
@@ -477,15 +481,16 @@ void remedies_and_compensation(Study& study) {
   const GasRun thin{.dt = "0.001", .exponent = 4, .steps = 1200};
   const Spread beside = spread_of(gains_of(study, thin, study.sized(2, 4, 8)).digits);
   study.note(fmt::format(
-      "Compensation mends the sums q + dt p and p + dt K, not the forces, which are those of rounded places. Where a "
-      "particle turns round in a few steps dt K is as large as p, and its own rounding as that of the sum: behind "
-      "bounces off a thin wall, hamflow's with e = 4, which goes with 1/S^10, the square's starts gain {:.2g} digits "
-      "with dt = 0.001 ({} steps, {} starts). So the gain is measured before most of them bounce.",
+      "Compensation corrects the sums q + dt p and p + dt K, but not the forces, which are computed at rounded "
+      "positions. If a particle turns round within a few steps, dt K is as large as p and rounds as much as the sum. "
+      "After bounces off a thin wall (e = 4 in hamflow, proportional to 1/S^10) the starts of the square gain only "
+      "{:.2g} digits with dt = 0.001 ({} steps, {} starts). The gain is therefore measured before most particles "
+      "bounce.",
       beside.mean, thin.steps, beside.members));
   study.note(
-      "Page 80 writes the wall's force without a scale, page 74 with SkalierFaktor^-4. The powers are judged with that "
-      "factor kept. hamflow's container takes S into the power, 1/S^(2 + 2e), as lengths S q would have it; at S = 60 "
-      "a higher power then makes the wall thinner than a step, which the thesis does not say.");
+      "Page 80 writes the wall's force without a scale, page 74 with SkalierFaktor^-4. The powers are judged with this "
+      "factor. hamflow's container has the factor 1/S^(2 + 2e), which follows from lengths S q. At S = 60 a higher "
+      "power then makes the wall thinner than a step, which the thesis does not mention.");
 }
 
 }  // namespace gas_digits

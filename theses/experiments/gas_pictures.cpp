@@ -38,7 +38,7 @@ figures::Panel within_the_circle(const std::vector<Places>& all) {
   return panel;
 }
 
-/// 1200 steps with the text's and the listing's step length: a particle is outside long before.
+/// 1200 steps with the text's and the listing's step size: a particle is outside long before.
 void claim_inside(Study& study, GasRun run) {
   // Of several starts that which stays longest: the thesis' own random numbers are not known. So many that stay no
   // longer leave fewer than one in twenty that does (sign_test.hpp); a long step ends all of them soon.
@@ -73,13 +73,14 @@ void claim_inside(Study& study, GasRun run) {
     exact.arithmetic = "double-double";
     steps.push_back(one("double-double", there_and_back(study, exact)));
   }
-  study.claim({fmt::format("inside_{}_{}", run.dt, run.scale),
-               fmt::format("1200 steps there and back stay within the circle, dt = {}, scale {}", run.dt, run.scale),
-               "1200 steps"},
-              at_least(static_cast<double>(run.steps), "the step in which a particle is on the soft wall or beyond it"),
-              steps, in_more_digits && starts >= enough ? Grounds::ways : Grounds::program,
-              starts >= enough ? "the step in double-double: the default size"
-                               : fmt::format("{} starts: the default size", enough));
+  study.claim(
+      {fmt::format("inside_{}_{}", run.dt, run.scale),
+       fmt::format("1200 steps there and back stay within the circle, dt = {}, scale {}", run.dt, run.scale),
+       "1200 steps"},
+      at_least(static_cast<double>(run.steps), "first step in which a particle is on the soft wall or beyond it"),
+      steps, in_more_digits && starts >= enough ? Grounds::ways : Grounds::program,
+      starts >= enough ? "the step in double-double: the default size"
+                       : fmt::format("{} starts: the default size", enough));
 }
 
 /// What the listed program returns to with particles outside, which it does not notice.
@@ -92,7 +93,7 @@ void claim_own_return(Study& study, const GasRun& run) {
         listed_return(listed(run, there_and_back(study, start)), run.steps, false, [&] { study.breathe(); });
     const double error = std::max(back.position, back.momentum);
     measured.push_back({std::isfinite(error) ? error : 1e300, 0,
-                        fmt::format("the listing's program: {} outside at the turn, energy off by {:.1g} of itself",
+                        fmt::format("the listing's program: {} outside at the turn, relative energy error {:.1g}",
                                     back.outside_at_turn, back.energy_error)});
   }
   study.claim({fmt::format("own_{}_{}", run.dt, run.scale),
@@ -112,7 +113,7 @@ Measured of_our_start(double value, const Rule& rule, const std::string& how) {
 
 std::string told_of(const Return& back) {
   if (!back.done) return back.message;
-  return fmt::format("positions {:.2g}, momenta {:.2g}; at the turn the farthest was {:.2g} from its start",
+  return fmt::format("positions {:.2g}, momenta {:.2g}; at the turn the largest distance from the start was {:.2g}",
                      back.position, back.momentum, farthest(back.start.q, back.turn.q));
 }
 
@@ -130,26 +131,28 @@ void square(Study& study) {
     // A step that the thesis did not take may come to what is printed; where it does not nothing follows.
     const Rule as_told = within(-3, 0.5, "a power of ten is printed, in the measure of page 72");
     study.claim({fmt::format("returns_{}", scale),
-                 fmt::format("it returns to its start as told, where no particle tunnels, dt = 0.0001, scale {}: power "
+                 fmt::format("it returns to its start as stated if no particle tunnels, dt = 0.0001, scale {}: power "
                              "of ten of the mean error of positions",
                              scale),
                  "green on red; 10^-3 in the table"},
                 as_told, {of_our_start(std::log10(back.position), as_told, told_of(back))}, Grounds::program,
                 "the thesis' own step, 0.01 or 0.001, with which no start was found that stays inside");
     if (run.scale != "per-side") continue;
-    study.draw("figure",
-               "Places (3.2a), within the circle of radius 1.5, and momenta (3.2b) at the start (discs) and after the "
-               "return (rings), dt = 0.0001",
-               {study.info().title,
-                {within_the_circle({{"start", back.start.q, red}, {"return", back.end.q, green, 6}}),
-                 places("{/:Italic p_x}", "{/:Italic p_y}",
-                        {{"start", back.start.p, red}, {"return", back.end.p, green, 6}})}});
+    study.draw(
+        "figure",
+        "Positions (3.2a), within the circle of radius 1.5, and momenta (3.2b) at the start (discs) and after the "
+        "return (rings), dt = 0.0001",
+        {study.info().title,
+         {within_the_circle({{"start", back.start.q, red}, {"return", back.end.q, green, 6}}),
+          places("{/:Italic p_x}", "{/:Italic p_y}",
+                 {{"start", back.start.p, red}, {"return", back.end.p, green, 6}})}});
   }
   run = {.side = 21, .steps = study.sized(20, 1200, 1200), .arithmetic = "lattice"};
-  study.claim({"lattice", "the return is exact but for rounding, 441 particles: on the lattice it is exact", "exact"},
-              none_of("runs that do not return every bit"),
-              {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
-                fmt::format("lattice, {} steps there and back", run.steps)}});
+  study.claim(
+      {"lattice", "the return is exact except for rounding, 441 particles, so on the lattice it is exact", "exact"},
+      none_of("runs that do not return every bit"),
+      {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
+        fmt::format("lattice, {} steps there and back", run.steps)}});
   run = {.side = 21, .steps = study.sized(300, 12000, 12000), .record_every = study.sized(5, 50, 20)};
   const Trajectory path = study.try_run("tracks", gas_scenario(run));
   std::vector<Places> tracks;
@@ -188,23 +191,25 @@ void claim_by_hand(Study& study, const GasRun& run, const Return& found) {
   const double apart = farthest(one.q(), other.q());
   one.put_crossers_at_the_origin(), other.put_crossers_at_the_origin();
   const bool same = one.q() == other.q() && one.p() == other.p();
-  study.claim({"one_to_one", "the return, with border crossers set to (0, 0) by hand, is due to a reversible map",
-               "set to 0,0 by hand", "77"},
-              at_least(2, "states that two states are sent to: a map that is reversed is one-to-one"),
-              {{same ? 1.0 : 2.0, 0, fmt::format("two states that differ by {:.2g} in a particle beyond", apart)}},
-              Grounds::identity);
+  study.claim(
+      {"one_to_one", "the return, with border crossers set to (0, 0) by hand, is due to a reversible map",
+       "set to 0,0 by hand", "77"},
+      at_least(2, "images of two states: a map that can be reversed is one-to-one"),
+      {{same ? 1.0 : 2.0, 0, fmt::format("two states that differ by {:.2g} in a particle beyond the border", apart)}},
+      Grounds::identity);
   // Neighbours at half the equilibrium distance, as the scale of the square has them in the corner.
   for (const bool by_hand : {false, true}) {
     const ListedReturn back =
         listed_return(ListedGas(5, 0.001, found.start.q, found.start.p), run.steps, by_hand, [&] { study.breathe(); });
     const Rule rule = none_of("particles farther than half a spacing from where they started");
     study.claim({by_hand ? "by_hand" : "not_by_hand",
-                 fmt::format("all return, S = 5, dt = 0.001, border crossers {}", by_hand ? "set to (0, 0)" : "left"),
+                 fmt::format("all particles return, S = 5, dt = 0.001, border crossers {}",
+                             by_hand ? "set to (0, 0)" : "not moved"),
                  "all (!) return", by_hand ? "77" : ""},
                 rule,
                 {of_our_start(static_cast<double>(not_back(found.start.q, back.end, half_a_spacing)), rule,
                               fmt::format("the listing's program, {} steps: outside from step {}, {} set to (0, 0), {} "
-                                          "end without a place (two at one point have no force)",
+                                          "end at no finite position (the force of two at one point is not finite)",
                                           run.steps, back.first_outside, back.put_to_origin, back.nowhere))},
                 Grounds::program, their_start);
   }
@@ -216,11 +221,11 @@ void corner(Study& study) {
       const GasRun run{.start = "corner", .scale = scale, .dt = dt, .steps = 2400};
       const Return back = there_and_back(study, run);
       const std::string where =
-          fmt::format("dt = {}, {}", dt, run.scale == "5" ? "S = 5, that of the square" : "scale " + run.scale);
+          fmt::format("dt = {}, {}", dt, run.scale == "5" ? "S = 5, as for the square" : "scale " + run.scale);
       const bool is_theirs = run.dt != "0.0001";  // of the text, of the listing; the last one is to see a return
       if (is_theirs) {
         const Rule rule = at_most(static_cast<double>(run.steps) - 0.5,
-                                  "the step in which a particle is beyond it, 2400 where none is");
+                                  "first step in which a particle is beyond the border; 2400 if there is none");
         study.claim({fmt::format("crossers_{}_{}", dt, scale),
                      "particles cross the border, and are set to (0, 0) in the thesis, " + where, "crossers", "77"},
                     rule,
@@ -235,13 +240,13 @@ void corner(Study& study) {
       const double moved = farthest(back.start.q, back.turn.q);
       Measured returned = of_our_start(
           static_cast<double>(not_back(back.start.q, back.end.q, half_a_spacing)), none_away,
-          fmt::format("the farthest by {:.2g}; {}; at the turn none was farther than {:.2g} from its start",
+          fmt::format("largest distance {:.2g}; {}; at the turn the largest distance from the start was {:.2g}",
                       farthest(back.start.q, back.end.q), lost, moved));
       // Who was not away does not return: particles that stand still would meet the rule, too.
       const bool was_away = moved > half_a_spacing;
       if (!was_away) returned.uncertainty = std::numeric_limits<double>::infinity();
       study.claim({fmt::format("returns_{}_{}", dt, scale),
-                   "all 121 return, " + where + (is_theirs ? "" : ", a tenth of the listing's"), "all (!)"},
+                   "all 121 return, " + where + (is_theirs ? "" : ", a tenth of the listing's step size"), "all (!)"},
                   none_away, {returned}, Grounds::program,
                   was_away ? their_start
                            : "a motion in which particles are farther away at the turn than half a spacing, 0.05: the "
@@ -250,9 +255,10 @@ void corner(Study& study) {
       int elsewhere = 0;
       for (std::size_t i = 0; i < turn.size(); i += 2) elsewhere += turn[i] < 0 || turn[i + 1] < 0 ? 1 : 0;
       if (is_theirs) {
-        const Rule rule = at_least(121.0 * 3 / 8,
-                                   "particles outside the upper right quarter, in which all start: half of the three "
-                                   "quarters that an even spread has");
+        const Rule rule =
+            at_least(121.0 * 3 / 8,
+                     "particles outside the upper right quarter, in which all start; an even spread has three "
+                     "quarters there, and half of that is asked");
         study.claim({fmt::format("spread_{}_{}", dt, scale),
                      "after 2400 steps the particles are spread over the circle, " + where, "in the circle", "79"},
                     rule, {of_our_start(static_cast<double>(elsewhere), rule, "of 121")}, Grounds::program,
@@ -261,8 +267,9 @@ void corner(Study& study) {
       if (run.scale != "per-side" || run.dt != "0.001") continue;
       study.draw(
           "figure",
-          "Start (discs, 3.3a), after 2400 steps (squares, 3.3b) and after 2400 back (rings, 3.3c), dt = 0.001, within "
-          "the circle of radius 1.5",
+          "Positions at the start (discs, 3.3a), after 2400 steps (squares, 3.3b) and after 2400 steps back (rings, "
+          "3.3c), "
+          "dt = 0.001, within the circle of radius 1.5",
           {study.info().title,
            {within_the_circle(
                {{"start", back.start.q, red}, {"turn", back.turn.q, blue, 4}, {"return", back.end.q, green, 6}})}});
@@ -270,7 +277,7 @@ void corner(Study& study) {
   }
   const GasRun run{.start = "corner", .dt = "0.001", .steps = study.sized(400, 2400, 2400), .arithmetic = "lattice"};
   const Return exact = there_and_back(study, run);
-  study.claim({"lattice", "they return; on the lattice every bit does", "exact"},
+  study.claim({"lattice", "the particles return; on the lattice every bit returns", "exact"},
               none_of("runs that do not return every bit"),
               {{exact.bit_exact ? 0.0 : 1.0, 0,
                 fmt::format("lattice, dt = 0.001, scale per-side, {} steps there and back", run.steps)}});

@@ -174,10 +174,10 @@ double off_line(const Motion& motion, const Trajectory& dots) {
 void over_t(Study& study, const Motion& motion) {
   const Trajectory figure = run(study, motion, 1);
   const double size = std::max(std::abs(motion.q0[0]), std::abs(motion.q0[1]));
-  claim_second_order(
-      study,
-      {"order", "the numerical solution comes to the analytical one as dt becomes smaller", "dots and line, of one dt"},
-      {distance(run(study, motion, 2), motion), distance(run(study, motion, 4), motion), 1e-11 * size});
+  claim_second_order(study,
+                     {"order", "the numerical solution approaches the analytical one as dt becomes smaller",
+                      "dots and line, of one dt"},
+                     {distance(run(study, motion, 2), motion), distance(run(study, motion, 4), motion), 1e-11 * size});
   study.claim({"kept", "the energy of the numerical solution is constant", "constant"},
               at_most(1e-11, "rounding over the run, relative to the scale of the energy"),
               {{energy_error(figure) / figure.report.energy_scale, 64 * 0x1p-53,
@@ -215,9 +215,10 @@ void in_phase_planes(Study& study, const Motion& motion) {
   const Trajectory figure = run(study, motion, 1);
   const auto y = rates(motion.absolute, figure);
   if (motion.mode == 0) {
-    study.claim({"open", "the phase curves are open: they do not close within 1000 turns of the second mode", "offen"},
-                at_least(1e-6, "of a turn: w1/w2 = sqrt((29 + 8 sqrt(13))/3) is no ratio of whole numbers up to 1000"),
-                {{nearest_common_period(1000), 1e-12, "nearest k w1/w2 to a whole number, k up to 1000"}});
+    study.claim(
+        {"open", "the phase curves are open: they do not close within 1000 turns of the second mode", "offen"},
+        at_least(1e-6, "part of a turn: w1/w2 = sqrt((29 + 8 sqrt(13))/3) is not a ratio of whole numbers up to 1000"),
+        {{nearest_common_period(1000), 1e-12, "nearest k w1/w2 to a whole number, k up to 1000"}});
   } else {
     study.claim(
         {"ellipses",
@@ -248,13 +249,13 @@ void claim_amplitudes(Study& study, const Motion& motion, const Pair& printed, c
   for (std::size_t i = 0; i < 2; ++i) {
     off = std::max(off, std::abs(a[i] * printed[0] + b[i] * printed[1] - motion.q0[i]));
   }
-  study.claim(
-      {"amplitudes", fmt::format("the amplitudes A1 and A2 of equation {} are those of its start", equation), texts,
-       page},
-      at_most(1e-9, "they have to give the start q0 = l1 A1 + l2 A2, to the digits printed"),
-      {{off, 1e-10,
-        fmt::format("largest component of l1 A1 + l2 A2 - q0; right are {:.12g}, {:.12g}", right[0], right[1])}},
-      Grounds::identity);
+  study.claim({"amplitudes", fmt::format("the amplitudes A1 and A2 of equation {} are those of its start", equation),
+               texts, page},
+              at_most(1e-9, "l1 A1 + l2 A2 has to give the start q0, to the digits printed"),
+              {{off, 1e-10,
+                fmt::format("largest component of l1 A1 + l2 A2 - q0; the right amplitudes are {:.12g}, {:.12g}",
+                            right[0], right[1])}},
+              Grounds::identity);
 }
 
 /// Whether two starts, in absolute and in relative angles, are one motion.
@@ -263,9 +264,9 @@ void claim_identical(Study& study, std::size_t row) {
   const Pair converted{absolute[0], absolute[1] - absolute[0]};
   const double off = std::max(std::abs(converted[0] - relative[0]), std::abs(converted[1] - relative[1]));
   study.claim({"identical_" + std::to_string(row + 1),
-               fmt::format("row {} of table 3.1 and that of table 3.2 are the same motion", row + 1),
+               fmt::format("row {0} of table 3.1 and row {0} of table 3.2 describe the same motion", row + 1),
                "identische Pendelbewegungen"},
-              at_most(1e-12, "relative angles are q1, q2 - q1 of the absolute ones"),
+              at_most(1e-12, "the relative angles are q1 and q2 - q1, if q1 and q2 are the absolute angles"),
               {{off, 1e-14,
                 fmt::format("largest difference; the start of table 3.1 is ({:.6g}, {:.6g}) in relative angles",
                             converted[0], converted[1])}},
@@ -316,7 +317,7 @@ void starts(Study& study, bool absolute) {
                  "Eigenform"},
                 at_most(1e-13, "rounding of the amplitudes"),
                 {{std::abs(A[motion.mode == 1 ? 1 : 0] / A[motion.mode == 1 ? 0 : 1]), 0,
-                  "amplitude of the other eigenform over its own"}});
+                  "amplitude of the other eigenform divided by that of this one"}});
   }
   int most = 0;
   for (const Motion& motion : motions) {

@@ -1,5 +1,5 @@
 // [Sonnleitner2010], figures 2.6 and 2.7: the energy of the Lennard-Jones oscillator over one period, by Runge-Kutta,
-// Stoermer-Verlet and StV4. The thesis gives no step length: each of its sentences is judged where one of six comes
+// Stoermer-Verlet and StV4. The thesis gives no step size: each of its sentences is judged where one of six comes
 // nearest to it, and a table has them all.
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ double rounding_of(const Trajectory& run, double unit) {
   return 27.0 * 4 * unit * static_cast<double>(run.report.final.step);
 }
 
-/// What became of the energy with one step length: errors of the methods, which double would hide beneath rounding.
+/// What became of the energy with one step size: errors of the methods, which double would hide beneath rounding.
 struct Errors {
   std::string dt;
   double rk4_final, rk4_largest, verlet_final, verlet_largest, stv4_final, stv4_largest;
@@ -69,7 +69,7 @@ std::vector<Errors> all_errors(Study& study) {
   return all;
 }
 
-/// The step length with which a number comes nearest to the printed one, as their ratio goes.
+/// The step size with which a number comes nearest to the printed one, as their ratio goes.
 const Errors& nearest(const std::vector<Errors>& all, double printed, const std::function<double(const Errors&)>& of) {
   const auto away = [&](const Errors& one) { return std::abs(std::log(of(one) / printed)); };
   return *std::min_element(all.begin(), all.end(), [&](const Errors& a, const Errors& b) { return away(a) < away(b); });
@@ -85,10 +85,9 @@ figures::Panel energy_panel(const std::string& of, const Trajectory& run) {
 void runge_kutta(Study& study) {
   const Trajectory figure = one_period(study, "rk4", "0.01", "double", "figure");
   const double rounding = 64 * unit_of_double;
-  study.claim(
-      {"energy", "the energy of the start", "-0.167875643"},
-      within(-0.1678756435, 0.5e-9 * (1 + 1e-6), "the digits printed begin the number: they are cut, not rounded"),
-      {{figure.report.energy.initial, rounding, "H of the start"}});
+  study.claim({"energy", "the energy of the start", "-0.167875643"},
+              within(-0.1678756435, 0.5e-9 * (1 + 1e-6), "the printed digits are cut, not rounded"),
+              {{figure.report.energy.initial, rounding, "H of the start"}});
   double least = 1e300, off = 0;
   std::string with, list;
   for (const char* dt : step_lengths) {
@@ -99,10 +98,11 @@ void runge_kutta(Study& study) {
   }
   study.claim({"no_return", "Runge-Kutta's energy does not return to its value after a period", "does not return"},
               at_least(1e-13, "above what rounding leaves in double"),
-              {{least, off, "|H - H0| in double-double, the least of six step lengths, dt = " + with}});
+              {{least, off, "|H - H0| in double-double, the smallest of six step sizes, dt = " + with}});
   study.note("Runge-Kutta's |H - H0| after a period: " + list + ".");
   study.keep({"energy", {{"t", figure.t}, {"energy", figure.energy}}});
-  study.draw("figure", "Energy over one period of Runge-Kutta with dt = 0.01 (dots), less that of the start (line)",
+  study.draw("figure",
+             "Energy of Runge-Kutta minus its value at the start, over one period with dt = 0.01 (dots); the line is 0",
              {study.info().title, {energy_panel("", figure)}});
 }
 
@@ -112,7 +112,7 @@ void claim_thousandth(Study& study, const std::vector<Errors>& all) {
   const Errors& end = nearest(all, 1e-3, &Errors::final_ratio);
   study.claim(
       {"final",
-       "the error of Stoermer-Verlet is 1/1000 of Runge-Kutta's: at the end of the period, with a step length "
+       "the error of Stoermer-Verlet at the end of the period is 1/1000 of Runge-Kutta's, with a step size "
        "from 0.01 to 0.0005",
        "1/1000"},
       rule,
@@ -120,7 +120,7 @@ void claim_thousandth(Study& study, const std::vector<Errors>& all) {
         fmt::format("dt = {}, the nearest of six: {:.3g} over {:.3g}", end.dt, end.verlet_final, end.rk4_final)}});
   const Errors& within_it = nearest(all, 1e-3, &Errors::largest_ratio);
   study.claim({"largest",
-               "the error of Stoermer-Verlet is 1/1000 of Runge-Kutta's: the largest of the period, with a step length "
+               "the largest error of Stoermer-Verlet in the period is 1/1000 of Runge-Kutta's, with a step size "
                "from 0.01 to 0.0005",
                "1/1000"},
               rule,
@@ -134,18 +134,18 @@ void claim_precision(Study& study, const std::vector<Errors>& all) {
   const double limit = 10 * printed;
   const Errors& end = nearest(all, printed, [](const Errors& one) { return std::max(one.double_final, 1e-18); });
   study.claim({"stv4_final", "StV4's error at the end of the period is machine precision", "-3.747e-15"},
-              at_most(limit, "the size printed, ten times of it: rounding differs from program to program"),
+              at_most(limit, "ten times the printed size: rounding differs from program to program"),
               {{end.double_final, 64 * unit_of_double, "|H - H0| in double, nearest with dt = " + end.dt}});
   const Errors& least = *std::min_element(
       all.begin(), all.end(), [](const Errors& a, const Errors& b) { return a.stv4_largest < b.stv4_largest; });
-  study.claim({"stv4_largest",
-               "StV4's error is machine precision all through the period, with a step length from 0.01 to 0.0005",
-               "machine precision"},
-              at_most(limit, "the size printed, ten times of it"),
-              {{least.double_largest, least.double_rounding,
-                "largest |H - H0| in double, the least of six with dt = " + least.dt},
-               {least.stv4_largest, least.rounding + 2 * unit_of_double * least.stv4_largest, "in double-double"}},
-              Grounds::ways);
+  study.claim(
+      {"stv4_largest", "StV4's error is machine precision all through the period, with a step size from 0.01 to 0.0005",
+       "machine precision"},
+      at_most(limit, "ten times the printed size"),
+      {{least.double_largest, least.double_rounding,
+        "largest |H - H0| in double, the smallest of six, with dt = " + least.dt},
+       {least.stv4_largest, least.rounding + 2 * unit_of_double * least.stv4_largest, "in double-double"}},
+      Grounds::ways);
   study.note(
       fmt::format("The printed -3.747e-15 has a sign, as the error at the end has; a largest absolute error has "
                   "none. StV4's largest error falls with dt^4, and would be of that size with dt = {:.1g}.",
@@ -179,16 +179,16 @@ void verlet(Study& study) {
     table.rows.push_back(std::move(row));
   }
   study.claim({"returns", "Stoermer-Verlet's energy returns (almost) to its value", "almost"},
-              at_most(0.01, "what is left at the end over the largest error within the period"),
-              {{left, off, "the most of six step lengths"}});
+              at_most(0.01, "error at the end divided by the largest error within the period"),
+              {{left, off, "the largest of six step sizes"}});
   study.table(std::move(table));
   const Trajectory figure = one_period(study, "verlet", "0.01", "double", "figure"),
                    stv4 = one_period(study, "stv4", "0.01");
   study.keep({"energy", {{"t", figure.t}, {"energy", figure.energy}, {"energy_of_stv4", stv4.energy}}});
   study.draw(
       "figure",
-      "Energy over one period of Stoermer-Verlet (above) and of StV4 (below) with dt = 0.01 (dots), less that of "
-      "the start (line)",
+      "Energy minus its value at the start, over one period of Stoermer-Verlet (above) and of StV4 (below) with dt = "
+      "0.01 (dots); the line is 0",
       {study.info().title, {energy_panel(", Verlet", figure), energy_panel(", StV4", stv4)}});
 }
 
@@ -200,7 +200,7 @@ void no_method_conserves(Study& study) {
     return energy_error(run);
   };
   study.claim({"conserves", "no numerical method can keep the energy constant in time", "none can"},
-              at_least(1e-12, "an error of the method would not vanish with the unit of rounding"),
+              at_least(1e-12, "an error of the method would not decrease with the unit of rounding"),
               {{error("double"), 1e-16, "cg(3), dt = 0.01, ten periods, largest |H - H0| in double"},
                {error("double-double"), 1e-30, "in double-double"}},
               Grounds::ways);

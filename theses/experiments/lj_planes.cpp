@@ -99,9 +99,10 @@ void neighbouring_levels(Study& study) {
               within(4, 0.3, "halving dt divides it by 4"),
               {{at_coarse.of_h / at_fine.of_h, 0,
                 fmt::format("largest |H - H0| {:.3g} and {:.3g}", at_coarse.of_h, at_fine.of_h)}});
-  study.claim({"long", "they do so for a long time", "long"},
-              at_most(1.05, "the departure over 200 periods over that of the first; samples fall on other phases"),
-              {{at_late.of_modified / at_coarse.of_modified, 0, "verlet, dt = 0.005"}});
+  study.claim(
+      {"long", "they do so for a long time", "long"},
+      at_most(1.05, "the departure over 200 periods divided by that of the first; the samples have other phases"),
+      {{at_late.of_modified / at_coarse.of_modified, 0, "verlet, dt = 0.005"}});
   std::vector<double> modified;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     modified.push_back(coarse.energy[i] + 0.005 * 0.005 * modified_part(coarse.q[i][0], coarse.p[i][0]));
@@ -144,10 +145,10 @@ void draw_way_back(Study& study, const std::string& method, const std::string& d
                           "back",
                           figures::finite_points(back.coordinate(0), back.momentum(0)),
                           {.colour = "#009e73"}});
-  study.draw(
-      "figure",
-      study.info().title + ": steps there, with p below 0, and back after the momentum was turned (dots), exact (line)",
-      {study.info().title, {panel}});
+  study.draw("figure",
+             study.info().title +
+                 ": steps forward, with p below 0, and back after the momentum was reversed (dots), exact (line)",
+             {study.info().title, {panel}});
 }
 
 void draw_plane(Study& study, const Trajectory& run) {
@@ -161,7 +162,7 @@ void draw_plane(Study& study, const Trajectory& run) {
 
 void claim_period(Study& study, const std::string& printed, double dt) {
   study.claim({"period", "the time of one circulation", printed + " sec"},
-              within(std::stod(printed), dt, "a time of whole steps: to one step"),
+              within(std::stod(printed), dt, "a whole number of steps: to one step"),
               {{period(160), std::abs(period(160) - period(80)) + 1e-14, "quadrature"}});
 }
 
@@ -185,7 +186,7 @@ void euler(Study& study) {
     shrinking += now <= before;
     before = now;
   }
-  study.claim({"spiral", "it runs apart in a spiral", "spiral"},
+  study.claim({"spiral", "the curve runs outward in a spiral", "spiral"},
               none_of("circulations in which the energy did not grow"),
               {{static_cast<double>(shrinking), 0,
                 fmt::format("{} circulations, energy {:.4g} to {:.4g}", ends.size(), longer.energy[0], before)}});
@@ -199,8 +200,8 @@ void euler_a(Study& study) {
       study.run("longer", scenario("euler-a", "0.01", 233 * study.sized(1000L, 10000L, 100000L), 233));
   const double first = energy_error(once), late = energy_error(longer);
   study.claim(
-      {"stays", "EulerA does not leave its curve, nor does it at longer times", "does not leave it"},
-      at_most(1.1, "largest |H - H0| of all periods over that of the first; samples fall on other phases"),
+      {"stays", "EulerA does not leave its curve, at longer times either", "does not leave it"},
+      at_most(1.1, "largest |H - H0| of all periods divided by that of the first; the samples have other phases"),
       {{late / first, 0, fmt::format("{} periods, {:.4g} and {:.4g}", longer.report.final.step / 233, late, first)}});
   draw_plane(study, once);
 }
@@ -258,8 +259,8 @@ void way_back_of_euler_a(Study& study) {
   const double dt = nearest_dt(study);
   const Return end = there_and_back("euler-a", "double", dt);
   study.claim(
-      {"return", "where EulerA returns to, from 100 steps there and 100 back", "(1.3356, -0.3426)"},
-      at_most(0.5e-4 * (1 + 1e-6), "half a unit of the last digit printed, at the step length that comes nearest"),
+      {"return", "the state to which EulerA returns after 100 steps forward and 100 back", "(1.3356, -0.3426)"},
+      at_most(0.5e-4 * (1 + 1e-6), "half a unit of the last digit printed, with the step size that comes nearest"),
       {{off_printed("double", dt), 1e-9,
         fmt::format("dt = {:.8f} leads to ({:.6f}, {:.6f}), in double", dt, end.q, end.p)},
        {off_printed("double-double", dt), 1e-9, "in double-double"}},
@@ -282,10 +283,9 @@ void way_back_of_stv4(Study& study) {
   }
   const double rounding = 0x1p-53;
   // 200 steps, each of 9 additions that round q or p; the motion may spread each by the stretching of the orbit.
-  study.claim(
-      {"return", "StV4 returns to its start up to machine precision", "(1.5, 0) to machine precision"},
-      at_most(200 * 9 * 100 * rounding, "1800 roundings, each stretched by at most 100 along the orbit"),
-      {{largest, 0, fmt::format("largest of five step lengths: {:.0f} units of rounding", largest / rounding)}});
+  study.claim({"return", "StV4 returns to its start up to machine precision", "(1.5, 0) to machine precision"},
+              at_most(200 * 9 * 100 * rounding, "1800 roundings, each stretched by at most 100 along the orbit"),
+              {{largest, 0, fmt::format("largest of five step sizes: {:.0f} units of rounding", largest / rounding)}});
   draw_way_back(study, "stv4", "0.01");
 }
 

@@ -132,8 +132,8 @@ void claim_torus(Study& study, bool absolute, const char* name, const std::strin
   };
   study.claim({name, statement, "zu jedem Zeitpunkt innerhalb"},
               at_most(1e-3,
-                      "share of the distance from the centre by which the curve is outside; it may touch, and "
-                      "1e-3 is less than a line of the figure"),
+                      "part of the distance from the centre by which the curve is outside; touching is allowed, and "
+                      "1e-3 is less than the width of a line in the figure"),
               {told(a, "cg(1,5), dt = 0.01", std::abs(a.excess - b.excess) + between), told(b, method, between)},
               Grounds::ways, "samples at shorter distances");
 }
@@ -152,7 +152,7 @@ void claim_touches(Study& study, bool absolute, const Trajectory& figure) {
         fmt::format("{:g} within {:g} of the distance from the centre, a line of the figure; {:g} within {:g}, a "
                     "dot; cg(1,5), dt = 0.01",
                     fewest, line, most, dot)}},
-      Grounds::program, "how near it is that the text calls a touch");
+      Grounds::program, "how near the curves have to come for the text to call it a touch");
 }
 
 void in_phase_planes(Study& study, bool absolute) {
@@ -216,7 +216,7 @@ void claim_turn_over(Study& study, bool absolute, const Trajectory& figure) {
   };
   if (absolute) {
     study.claim({"upright", "a rod that turns over would show in an angle beyond 2 pi", "2 pi"},
-                within(2 * pi, 1e-9, "the angle at which the rod stands upright"),
+                within(2 * pi, 1e-9, "angle at which the rod stands upright"),
                 {{bracketed_root(torque, 1, 5, torque(1), torque(5)), 1e-14,
                   "the first angle beyond 0 without torque: the largest V"}},
                 Grounds::identity);
@@ -251,7 +251,7 @@ void over_t(Study& study, bool absolute) {
   if (absolute) {
     study.claim(
         {"linear_energy", "the energy of the linear solution is larger than that of the motion", "größer", "117"},
-        at_least(1, "E of the linear solution over m g l; that of the motion is 1"),
+        at_least(1, "E of the linear solution divided by m g l; the motion has 1"),
         {{linear_energy(absolute, linear, {0})[0] / pendulum_energy_unit, 1e-12, "at the start, of its own M and C"},
          {pi * pi / 8, 1e-15, "C22 q2^2/2 = m g l pi^2/8 at the start"}},
         Grounds::identity);
@@ -265,13 +265,12 @@ void over_t(Study& study, bool absolute) {
   };
   const Trajectory series = pendulum_run(study, "reference", absolute, by_series);
   // A difference changes by less than 10 a second: the rates of both are below 5.
-  study.claim(
-      {"near", "the angles always stay near those of the linear solution", "immer in der Nähe"},
-      at_most(pi / 2,
-              "largest difference of an angle up to t = 26, against the amplitude pi/2 of the start: what is as "
-              "large is not near"),
-      {{apart_from_linear(figure), 0.05, "cg(1,5), dt = 0.01"},
-       {apart_from_linear(series), 0.05, "Taylor series, tolerance 1e-15"}});
+  study.claim({"near", "the angles always stay near those of the linear solution", "immer in der Nähe"},
+              at_most(pi / 2,
+                      "largest difference of an angle up to t = 26, compared with the amplitude pi/2 of the start; a "
+                      "difference as large as this is not near"),
+              {{apart_from_linear(figure), 0.05, "cg(1,5), dt = 0.01"},
+               {apart_from_linear(series), 0.05, "Taylor series, tolerance 1e-15"}});
   std::array<std::vector<double>, 2> line;
   for (std::size_t i = 0; i < 2; ++i) {
     for (const double t : figure.t) line[i].push_back(linear.q(i, t));
@@ -283,7 +282,7 @@ void over_t(Study& study, bool absolute) {
       gap = std::max(
           {gap, std::abs(figure.q[k][0] - other.q[k][0]), std::abs(figure.q[k][0] + figure.q[k][1] - other.q[k][1])});
     }
-    study.claim({"same_motion", "in relative angles the motion is that in absolute ones", "bestätigt"},
+    study.claim({"same_motion", "the motion in relative angles is the same as in absolute angles", "bestätigt"},
                 at_most(1e-9,
                         "the element commutes with linear changes of coordinates: rounding, 1e-13 a step, "
                         "over 2600 steps that separate neighbours by less than 1e4"),

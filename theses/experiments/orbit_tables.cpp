@@ -212,7 +212,7 @@ void carry_out(Study& study, const Table& table, const Row& row, std::uint64_t s
   }
   const std::string potential = std::string(table.title).substr(std::string("orbits of ").size());
   study.claim({row.name, std::string(row.statement) + " in " + potential, row.printed}, none_of("counter-examples"),
-              measured, Grounds::ways, "draws in which the classification is clear");
+              measured, Grounds::ways, "random orbits whose class is clear");
 }
 
 /// The outward distance of an orbit with k < 0 in the linear potential from the line to which its direction tends.
@@ -233,8 +233,8 @@ void claim_asymptote(Study& study) {
     return r * std::sin(static_cast<double>(rest.value));
   };
   const double near = distance(1e4), far = distance(4e4);
-  study.claim({"asymptote", "the orbit of figure 2.21 snuggles up to an asymptote", "an asymptote", "61"},
-              within(0.5, 0.05, "its distance falls like r^(-1/2): halved at four times the radius"),
+  study.claim({"asymptote", "the orbit of figure 2.21 approaches an asymptote", "an asymptote", "61"},
+              within(0.5, 0.05, "the distance falls like r^(-1/2): it is halved at four times the radius"),
               {{far / near, 1e-6,
                 fmt::format("distances {:.4g} and {:.4g} at r = 10000, 40000 from the line through the centre to which "
                             "it turns, by quadrature",
@@ -254,7 +254,7 @@ void claim_binomial(Study& study) {
   }
   study.claim(
       {"bounded_inside",
-       "for k < 0 orbits in the binomial potential are hyperbolas, which turn once, tried with " + inside.told(),
+       "for k < 0 orbits in the binomial potential are hyperbolas, which turn once; tested with " + inside.told(),
        "Hyperbel"},
       within(1, 0.5, "number of turning points"),
       {{static_cast<double>(crossings.size()), 0, "zeros of E - V_eff within r^2 < lambda"},
@@ -283,7 +283,8 @@ void claim_binomial(Study& study) {
   const double by_path = away.t.back() + 1 / r_end;
   study.claim(
       {"finite_time",
-       "for k < 0 orbits in the binomial potential are hyperbolas, on which infinity takes for ever, tried with " +
+       "for k < 0 orbits in the binomial potential are hyperbolas, on which it takes infinite time to reach infinity; "
+       "tested with " +
            outside.told(),
        "Hyperbel"},
       at_most(0, "1/time to infinity is 0 on a hyperbola"),

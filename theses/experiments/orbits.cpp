@@ -88,8 +88,8 @@ void claim_open(Study& study, const Case& c, const Trajectory& run) {
   constexpr int periods = 1000;
   study.claim({"open", "the orbit does not close within 1000 radial periods", "offen"},
               at_least(1e-6,
-                       "radians; an orbit that closes has some later pericentre in the direction of the first, angle "
-                       "0; the quadrature leaves 1e-11"),
+                       "radians; if an orbit closes, a later pericentre has the direction of the first, angle 0; the "
+                       "quadrature has errors of 1e-11"),
               {{nearest_return(angle, periods), periods * (std::abs(angle - coarser) + 1e-14),
                 fmt::format("smallest angle between the first pericentre and one of the next 1000, which follow each "
                             "other by {:.12f}, equation 2.43 by quadrature",
@@ -114,8 +114,8 @@ void claim_on_line(Study& study, const Trajectory& figure, const Trajectory& lin
   study.claim({"on_line", "with dt = 0.1 the dots lie on the line of the exact orbit", "dots on the line"},
               at_most(0.01, "distance from the line over the largest coordinate: a dot is drawn no smaller"),
               {{largest / size, sagitta / size + 1e-14,
-                fmt::format("the farthest dot is {:.2g} from the line, whose chords are off by {:.1g} at most", largest,
-                            sagitta)}});
+                fmt::format("the farthest dot is {:.2g} from the line, whose chords are at most {:.1g} off the orbit",
+                            largest, sagitta)}});
 }
 
 /// The chapter prints energies to two decimals (-0.25, 3.25): half a unit of "1" would allow every orbit near it.
@@ -151,7 +151,7 @@ void carry_out(const Case& c, Study& study) {
   double size = 0;
   for (const auto& q : exact.q) size = std::max({size, std::abs(q[0]), std::abs(q[1])});
   claim_second_order(study,
-                     {"order", "the dots come to the exact orbit as dt becomes smaller",
+                     {"order", "the dots approach the exact orbit as dt becomes smaller",
                       c.has_line ? "dots and line, of one dt" : "dots, of one dt"},
                      {largest_distance(coarse, exact), largest_distance(fine, exact), 1e-11 * size});
   // Dots may be early or late: the line goes on beyond the last of them.
@@ -169,8 +169,8 @@ void carry_out(const Case& c, Study& study) {
     lost = std::max(lost, std::abs(invariant[0] - figure.invariants[0][0]));
   }
   study.note(
-      fmt::format("At dt = 0.1 the dots are at most {:.2g} from the exact orbit at the same time. Angular momentum, of "
-                  "which the thesis says nothing here, is kept to {:.2g} of {:.4g}.",
+      fmt::format("At dt = 0.1 the dots are at most {:.2g} from the exact orbit at the same time. The angular "
+                  "momentum, which the thesis does not mention here, is kept to {:.2g} of {:.4g}.",
                   largest_distance(figure, exact), lost, figure.invariants[0][0]));
   study.keep({"orbit",
               {{"t", figure.t},

@@ -59,7 +59,7 @@ Ratios ratios(const std::vector<double>& a, const std::vector<double>& b, const 
     all.most = std::max(all.most, a[k] / b[k]);
   }
   if (first == a.size()) return {std::nan(""), std::nan(""), "no window shows two peaks"};
-  all.windows = fmt::format("windows that end from t = {:.4g}, behind the second peak, to 26", t[first]);
+  all.windows = fmt::format("windows that end between t = {:.4g}, after the second peak, and 26", t[first]);
   return all;
 }
 
@@ -118,7 +118,7 @@ void claim_determinants(Study& study, const Trajectory& absolute, const Trajecto
   }
   study.claim({"same_determinant", "the determinants of K_T are the same in absolute and in relative angles",
                "identisch", "126"},
-              at_most(1e-9, "K_T in one is similar to that in the other: rounding"),
+              at_most(1e-9, "the two matrices K_T are similar: rounding"),
               {{gap, 1e-14, "largest relative difference over every step"}});
   std::vector<double> depth;
   for (const double det : absolute.determinant_tangent) depth.push_back(-det);
@@ -159,28 +159,29 @@ void carry_out(Study& study, bool absolute) {
         at_most(1, "one step: K_T is an average over the step that ends at that time"),
         {{apart(of_mass, of_tangent), 0, "largest distance in steps of a peak of cond(M^-1) from those of cond(K_T)"}});
     study.note(
-        fmt::format("cond(K_T) has {} peaks above the middle of its range: beside most of those {} it shares with "
-                    "cond(M^-1) stand two lower ones, about 0.1 before and after.",
+        fmt::format("cond(K_T) has {} peaks above the middle of its range: it shares {} of them with cond(M^-1); "
+                    "most of these have two lower peaks beside them, about 0.1 before and after.",
                     of_tangent.size(), of_mass.size()));
     const Ratios rises =
         ratios(rise_of(own.condition_tangent).rise, rise_of(own.condition_inverse_mass).rise, of_mass, own.t);
     study.claim({"damped", "in absolute angles the condition of K_T rises less than that of M^-1", "niedriger", "124"},
-                at_most(1, "ratio of both rises, largest over smallest value"),
+                at_most(1, "ratio of the two rises, each the largest over the smallest value"),
                 {{rises.most, 1e-6, "largest of all " + rises.windows}});
   } else {
     const Rise tangent = rise_of(own.condition_tangent), other_tangent = rise_of(other.condition_tangent);
     const Ratios rises = ratios(tangent.rise, other_tangent.rise, of_mass, own.t);
-    study.claim({"rises_less", "in relative angles the condition of K_T hardly rises: less than in absolute ones",
-                 "kaum ein Anstieg", "125"},
-                at_most(1, "ratio of both rises, largest over smallest value; \"hardly\" has no number"),
-                {{rises.most, 1e-6,
-                  fmt::format("largest of all {}, up to which it rises by {:.3g}, in absolute angles by {:.3g}",
-                              rises.windows, tangent.rise.back(), other_tangent.rise.back())}});
+    study.claim(
+        {"rises_less", "in relative angles the condition of K_T hardly rises: less than in absolute ones",
+         "kaum ein Anstieg", "125"},
+        at_most(1, "ratio of the two rises, each the largest over the smallest value; \"hardly\" has no number"),
+        {{rises.most, 1e-6,
+          fmt::format("largest of all {}, up to which it rises by {:.3g}, in absolute angles by {:.3g}", rises.windows,
+                      tangent.rise.back(), other_tangent.rise.back())}});
     const Ratios of_inverse_mass =
         ratios(rise_of(own.condition_inverse_mass).rise, rise_of(other.condition_inverse_mass).rise, of_mass, own.t);
     study.claim({"mass_rises_more", "in relative angles the condition of M^-1 rises more than in absolute ones",
                  "stärker", "125"},
-                at_least(1, "ratio of both rises, largest over smallest value"),
+                at_least(1, "ratio of the two rises, each the largest over the smallest value"),
                 {{of_inverse_mass.least, 1e-6, "smallest of all " + of_inverse_mass.windows}});
     double worse = 0;
     for (std::size_t k = 1; k < own.size(); ++k) worse += own.condition_tangent[k] > other.condition_tangent[k] ? 1 : 0;
@@ -189,9 +190,8 @@ void carry_out(Study& study, bool absolute) {
                  "besser konditioniert", "125"},
                 at_most(1, "ratio of the largest cond(K_T) in relative and in absolute angles"),
                 {{largest.most, 1e-6, "largest of all " + largest.windows}});
-    study.note(
-        fmt::format("In {:.3g} of the steps cond(K_T) is larger in relative angles: it is the peaks that are lower.",
-                    worse / static_cast<double>(own.size() - 1)));
+    study.note(fmt::format("In {:.3g} of the steps cond(K_T) is larger in relative angles; only its peaks are lower.",
+                           worse / static_cast<double>(own.size() - 1)));
   }
   if (absolute) claim_determinants(study, own, other, of_mass);
   const std::vector<double> t(own.t.begin() + 1, own.t.end());
@@ -206,7 +206,7 @@ void carry_out(Study& study, bool absolute) {
       "figure",
       study.info().title +
           ": condition of K_T, condition of M^-1 and det K_T at every step; on the left up to t = 26, on the right "
-          "up to t = 3, where two peaks stand",
+          "up to t = 3, with two peaks",
       page_of(study.info().title, t,
               {tail(own.condition_tangent), tail(own.condition_inverse_mass), tail(own.determinant_tangent)}));
 }

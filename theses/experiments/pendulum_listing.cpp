@@ -215,23 +215,23 @@ void claim_iterations(Study& study, bool absolute) {
       {"most_" + angles, "Newton's method converges in at most three iterations in " + angles + " angles", "3", "124"},
       at_most(3, "counted over every step up to t = 26"),
       {{static_cast<double>(most(right)), 0, "with the exact tangent"}});
-  study.claim({"most_printed_" + angles,
-               "with the tangent as it is printed Newton's method converges in at most three iterations in " + angles +
-                   " angles",
-               "3", "124"},
-              at_most(3, "counted over every step up to t = 26"),
-              {{static_cast<double>(most(printed)), 0,
-                fmt::format("with c^3; {} after {} steps", printed.converged ? "converged" : "no convergence",
-                            printed.iterations.size())}});
-  study.claim({"least_" + angles, "a step takes one iteration at the least in " + angles + " angles", "1", "124"},
-              as_printed("1"),
-              {{static_cast<double>(least(right)), 0,
-                fmt::format("least over every step, exact tangent; |R| after one correction is {:.2g} at the least",
-                            right.least_second)},
-               {static_cast<double>(least(printed)), 0, "with the tangent as printed"}},
-              Grounds::ways);
+  study.claim(
+      {"most_printed_" + angles,
+       "with the printed tangent Newton's method converges in at most three iterations in " + angles + " angles", "3",
+       "124"},
+      at_most(3, "counted over every step up to t = 26"),
+      {{static_cast<double>(most(printed)), 0,
+        fmt::format("with c^3; {} after {} steps", printed.converged ? "converged" : "no convergence",
+                    printed.iterations.size())}});
+  study.claim(
+      {"least_" + angles, "a step takes at least one iteration in " + angles + " angles", "1", "124"}, as_printed("1"),
+      {{static_cast<double>(least(right)), 0,
+        fmt::format("smallest number over all steps, exact tangent; |R| after one correction is at least {:.2g}",
+                    right.least_second)},
+       {static_cast<double>(least(printed)), 0, "with the printed tangent"}},
+      Grounds::ways);
   study.note(
-      fmt::format("The counter of appendix C, fed with these counts ({} angles), prints {} for the least: it looks at "
+      fmt::format("The counter of appendix C, given these counts ({} angles), prints {} as the smallest: it counts "
                   "every correction, and each step has a first one.",
                   angles, least_of_appendix_c(right.iterations)));
 }

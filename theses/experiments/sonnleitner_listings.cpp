@@ -20,10 +20,10 @@ void mean_error(Study& study) {
   double squares = 0;
   for (std::size_t i = 0; i < back.start.q.size(); ++i) squares += std::pow(back.end.q[i] - back.start.q[i], 2);
   const double root_mean_square = std::sqrt(squares / particles);
-  study.claim({"mean", "the mean error of the listing is the size of a particle's error", "mittFehlerOrt", "72, 81"},
-              within(1, 1e-9, "the listing's number over the root mean square, of 121 particles"),
-              {{of_equal, 1e-15, "where all errors are equal: it is 1/sqrt(N) of them"},
-               {back.position / root_mean_square, 1e-12, "of a run, 20 steps there and back"}},
+  study.claim({"mean", "the mean error of the listing is the typical error of a particle", "mittFehlerOrt", "72, 81"},
+              within(1, 1e-9, "the listing's number divided by the root mean square, for 121 particles"),
+              {{of_equal, 1e-15, "if all errors are equal, the listing gives 1/sqrt(N) of them"},
+               {back.position / root_mean_square, 1e-12, "for a run of 20 steps there and back"}},
               Grounds::identity);
 }
 
@@ -37,12 +37,12 @@ void factor_of_scale(Study& study) {
     const auto factor = [](double squared) { return 12 * (std::pow(squared, -7) - std::pow(squared, -4)); };
     const double of_listing = factor(spacing * spacing * listed * listed), of_text = factor(spacing * spacing);
     study.claim({fmt::format("force_{}", side * side),
-                 fmt::format("{} particles: the listed force is that of the printed Hamiltonian", side * side),
+                 fmt::format("{} particles: the listed force belongs to the printed Hamiltonian", side * side),
                  "d2ij*SkalierFaktor^2 (74); |qi - qj|^-12 - 2 |qi - qj|^-6 (67)", "67, 74"},
                 within(1, 1e-9, "listed force between neighbours at the start over that of the Hamiltonian"),
                 {{of_listing / of_text, 1e-15,
-                  fmt::format("{:.3g} over {:.3g}, of neighbours {:g} apart", spacing * of_listing, spacing * of_text,
-                              spacing)}},
+                  fmt::format("{:.3g} over {:.3g}, for neighbours at distance {:g}", spacing * of_listing,
+                              spacing * of_text, spacing)}},
                 Grounds::identity);
     study.nothing_to_test(
         fmt::format("factor_{}", side * side),
@@ -52,10 +52,11 @@ void factor_of_scale(Study& study) {
     lengths += fmt::format("{}{:g} with {} particles", lengths.empty() ? "" : ", ", spacing * listed, side * side);
   }
   study.note(
-      "The text does not say what SkalierFaktor is for. With N of page 72, the number of a side, in place of that of "
-      "the particles it would be 1/Abst, and neighbours would start one length of the potential apart. As listed "
+      "The text does not say what SkalierFaktor is for. If N were the number on a side, as on page 72, and not the "
+      "number "
+      "of particles, it would be 1/Abst, and neighbours would start one length of the potential apart. In the listing "
       "they start N + 1 lengths apart, " +
-      lengths + ": almost an ideal gas. hamflow has both, as scale \"per-side\" and \"listing\".");
+      lengths + ", which is almost an ideal gas. hamflow has both, as scale \"per-side\" and \"listing\".");
 }
 
 /// The listed tests behind a step that leads to `next`, in their order: each negates one of the momenta p of before.
@@ -71,11 +72,11 @@ std::array<double, 2> listed_bounce(const std::array<double, 2>& p, const std::a
 void both_walls(Study& study) {
   const std::array<double, 2> p{10, 100}, next{1.05, 2.105};  // from (0.95, 2.095)
   const std::array<double, 2> after = listed_bounce(p, next);
-  study.claim({"both", "where both bodies are beyond their walls after a step, the listing turns both momenta",
+  study.claim({"both", "if both bodies are beyond their walls after a step, the listing reverses both momenta",
                "the momentum is negated in part", "103, 104"},
-              within(2, 0.5, "momenta that are turned"),
+              within(2, 0.5, "number of momenta that are reversed"),
               {{static_cast<double>(after[0] == -p[0]) + static_cast<double>(after[1] == -p[1]), 0,
-                "its second test begins with the momenta of before again, and undoes the first"}},
+                "the second test begins again with the momenta before the first, and undoes it"}},
               Grounds::identity);
 }
 

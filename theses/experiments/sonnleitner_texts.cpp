@@ -27,10 +27,11 @@ void reversible(Study& study) {
   const double q = there.q.back()[0], p = there.p.back()[0];
   const Trajectory back = fall(study, "back", q, -p);
   const double rounding = 0x1p-53;
-  study.claim({"returns", "continued with its momentum negated the motion reaches its start after 2 T", "(q0, -p0)"},
-              at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
-              {{std::max(std::abs(back.q.back()[0] - q0), std::abs(back.p.back()[0] + p0)), 0,
-                "verlet on free-fall, which it solves exactly but for rounding"}});
+  study.claim(
+      {"returns", "if the motion continues with its momentum negated, it reaches its start after 2 T", "(q0, -p0)"},
+      at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
+      {{std::max(std::abs(back.q.back()[0] - q0), std::abs(back.p.back()[0] + p0)), 0,
+        "verlet on free-fall, which it solves exactly except for rounding"}});
   study.claim({"flow", "the motion is q0 + p0 T + T^2/2, p0 + T", "q0 + p0 T + T^2/2, p0 + T", "17"},
               at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
               {{std::max(std::abs(q - (q0 + p0 * T + T * T / 2)), std::abs(p - (p0 + T))), 0, "verlet"}});
@@ -38,7 +39,7 @@ void reversible(Study& study) {
                                      back.coordinate(0), back.momentum(0));
   panel.series.front().name = "back";
   panel.series.back().name = "there";
-  study.draw("figure", "There (dots) and back (line): both run through the same places, with opposite momenta",
+  study.draw("figure", "Forward (dots) and back (line): both pass the same positions, with opposite momenta",
              {study.info().title, {panel}});
 }
 
@@ -51,15 +52,14 @@ void past_state(Study& study) {
     const auto [q, p] = flow(r, s, T);
     return std::max(std::abs(q - q0), std::abs(p - p0));
   };
-  study.claim(
-      {"past", "the state from which (q0, p0) is reached after T is that which (q0, p0) reaches after T",
-       "q0 + p0 T + T^2/2, p0 + T"},
-      at_most(1e-12, "the flow over T leads from there to (q0, p0)"),
-      {{off(T), 1e-14,
-        fmt::format("distance, T = 2; from the state of -T it is {:.1g}. The equation that stands below the answer, "
-                    "Phi(-T; r, s) = (q0, p0), is solved rightly: it is not the question's",
-                    off(-T))}},
-      Grounds::identity);
+  study.claim({"past", "the motion that reaches (q0, p0) after T starts in the state that (q0, p0) reaches after T",
+               "q0 + p0 T + T^2/2, p0 + T"},
+              at_most(1e-12, "the flow over T leads from there to (q0, p0)"),
+              {{off(T), 1e-14,
+                fmt::format("distance, T = 2; from the state at -T it is {:.1g}. The equation below the answer, "
+                            "Phi(-T; r, s) = (q0, p0), is solved correctly, but it answers another question",
+                            off(-T))}},
+              Grounds::identity);
 }
 
 /// f of V = q^-12 - 2 q^-6.
@@ -82,7 +82,7 @@ void third_derivative(Study& study) {
   const double right = force_curvature(q) * p * p + force_slope(q) * force(q);
   study.claim(
       {"third", "the third derivative of the momentum along the flow is f'' p^2 + f' f(p)", "f'(q) f(p)"},
-      at_most(1e-3, "against a divided difference of p'' = f' p along the motion, relative"),
+      at_most(1e-3, "relative difference from a divided difference of p'' = f' p along the motion"),
       {{std::abs(printed - measured) / std::abs(measured), 1e-5,
         fmt::format("with f(q) in place of f(p) it is {:.2g}", std::abs(right - measured) / std::abs(measured))}},
       Grounds::identity);
@@ -111,7 +111,7 @@ void generalised_momentum(Study& study) {
                             printed_off, right_off)}},
               Grounds::identity);
   study.claim({"energy", "the transformed Hamiltonian is the energy", "H(G(Q), p)"},
-              at_most(1e-12, "kinetic energy of both, relative"),
+              at_most(1e-12, "relative difference of the two kinetic energies"),
               {{std::abs(printed_energy / energy - 1), 1e-15, "the same example"}}, Grounds::identity);
   // The T-tube: Cartesian momenta of a state as the library has them, M G' (G'^T M G')^-1 P, against G' (G'^T G')^-1 P
   // with G = (Q1, 0, 0, Q2).
@@ -152,7 +152,7 @@ void soft_force(Study& study) {
       at_most(1e-6, "minus the derivative of 1/(2 (1 - x^2)), at x = 0.5"),
       {{std::abs(plain - force_of_V), std::numeric_limits<double>::infinity(),
         fmt::format(
-            "-x/(1 - x^2)^2, as on pages 26 and 28, is off by {:.1g}; the text at hand is a transcription, which "
+            "-x/(1 - x^2)^2, as on pages 26 and 28, is off by {:.1g}; the available text is a transcription, which "
             "may have lost a power",
             std::abs(squared - force_of_V))}},
       Grounds::program, "a look at the printed page");
@@ -177,12 +177,13 @@ void sign_of_eps(Study& study) {
 /// Page 107: the kinetic energy of the light body is computed as m p^2/2, on page 106 as p^2/(2 m).
 void kinetic_energy_of_listing(Study& study) {
   const double m = 0.01, p = 1;
-  study.claim({"kinetic", "the listing's change of kinetic energy, massen(1)/2 p^2, is one of kinetic energy",
-               "1/2*massen(1)*p^2"},
-              at_most(1e-12, "against p^2/(2 m) of page 106, relative, for the masses and momenta of the listing"),
-              {{std::abs(m * p * p / 2 / (p * p / (2 * m)) - 1), 1e-15,
-                "m1 = 0.01, p1 = 1: it is 10^4 times too small; with m1 = 1, as in the table, both agree"}},
-              Grounds::identity);
+  study.claim(
+      {"kinetic", "the listing's change of kinetic energy, massen(1)/2 p^2, is a change of kinetic energy",
+       "1/2*massen(1)*p^2"},
+      at_most(1e-12, "relative difference from p^2/(2 m) of page 106, for the masses and momenta of the listing"),
+      {{std::abs(m * p * p / 2 / (p * p / (2 * m)) - 1), 1e-15,
+        "m1 = 0.01, p1 = 1: it is 10^4 times too small; with m1 = 1, as in the table, both agree"}},
+      Grounds::identity);
 }
 
 /// Page 85: the force of the pair changes P2 only a little, "by the conservation of momentum". The tubes take momentum.
@@ -196,7 +197,7 @@ void momentum_of_pair(Study& study) {
   for (std::size_t i = 1; i < run.size(); ++i) impulse += (forces(i - 1) + forces(i)) / 2 * (run.t[i] - run.t[i - 1]);
   const double change1 = run.p.back()[0], change2 = run.p.back()[1];
   study.claim({"pair", "the force between the bodies keeps P1 + P2", "conservation of momentum"},
-              at_most(1e-6, "|change of P1 + P2| from rest, over 0.2, no wall in reach"),
+              at_most(1e-6, "|change of P1 + P2| from rest over the time 0.2, without a wall nearby"),
               {{std::abs(change1 + change2), 1e-10,
                 fmt::format("eps = -0.6: P1 changes by {:.3g}, P2 by {:.3g}: each tube takes the other component",
                             change1, change2)},
@@ -218,7 +219,7 @@ void bounce_keeps_energy(Study& study) {
     at_bounces = std::max(at_bounces, std::abs(path.energy[i] - path.energy[i - 1]));
   }
   study.claim({"kept", "negating the momentum at a wall keeps the Hamiltonian", "keeps it"},
-              at_most(1e-13, "rounding of energies of 68"),
+              at_most(1e-13, "rounding of energies of size 68"),
               {{at_bounces, 0, fmt::format("largest change at {} bounces", bounces)}});
 }
 

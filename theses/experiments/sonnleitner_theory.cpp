@@ -71,14 +71,15 @@ void selected_volume(Study& study) {
     }
   }
   study.claim(
-      {"selected", "the volume of chosen positions with their momenta is conserved, whatever the others do",
+      {"selected", "the volume of chosen positions and their momenta is conserved, whatever the other coordinates do",
        "mu(M(t)) = mu(M(0))"},
-      within(1, 1e-3, "area of a small set of (Q1, P1) after the time 1 over that before, where Q2 and P2 begin alike"),
+      within(1, 1e-3,
+             "area of a small set of (Q1, P1) after the time 1 divided by that before, if Q2 and P2 begin equal"),
       {{determinant(by_tangents), 1e-8, "T-tube without walls, masses 1, eps = 0.6, tangents of stv4"},
        {determinant(by_flow), 1e-5, "divided differences of the exact flow"}},
       Grounds::ways);
-  study.claim({"all", "the volume of all positions and momenta is (Liouville)", "mu(M(t)) = mu(M(0))"},
-              within(1, 1e-10, "the same of all four"),
+  study.claim({"all", "the volume of all positions and momenta is conserved (Liouville)", "mu(M(t)) = mu(M(0))"},
+              within(1, 1e-10, "the same volume ratio, for all four coordinates"),
               {{determinant_of(tangents), 1e-12, "determinant of the tangent map of stv4"}});
 }
 
@@ -100,7 +101,7 @@ void equivalence(Study& study) {
     for (std::size_t k = 0; k < 2; ++k) weakly = std::max(weakly, std::abs(back[i][k] - psi(t)[i][k]));
   }
   const std::string example =
-      "Psi(t), the flow over a time t of p^2/2 + k q^2/2, another fixed k = 1 + t for each t; t = 0.5";
+      "Psi(t) is the flow of p^2/2 + k q^2/2 over the time t, with k = 1 + t fixed for each t; t = 0.5";
   study.claim(
       {"reversible", "a map that is time-reversible is symmetric and weakly reversible", "<="},
       at_most(1e-12, "|Psi(-t) Psi(t) - id| of a map with S Psi(t) S Psi(t) = id"),
@@ -179,7 +180,7 @@ void billiard(Study& study) {
       {"one_body",
        "(Q1, Q2) is exactly the path of a single body on a table with a fixed source of the force at the origin",
        "exactly"},
-      at_most(1e-6, "departure from Kepler's laws for a fixed centre, relative"),
+      at_most(1e-6, "relative departure from Kepler's laws for a fixed centre"),
       {{change_of_area_rate(table, 1, 100), 1e-9,
         fmt::format("change of Q1 Q2' - Q2 Q1' between two bounces, masses 1 and 100; with equal masses {:.1g}",
                     change_of_area_rate(equal, 1, 1))},
@@ -240,12 +241,12 @@ void filled(Study& study) {
   const double coarse = share_met(0.6, 4.29, 100, 10), fine = share_met(0.6, 4.29, 100, 40);
   study.claim(
       {"filled",
-       "late points of phase space fill a range of four dimensions (87), on curves that are run through "
+       "late points fill a four-dimensional range of phase space (87), on curves that the motion passes "
        "periodically (90)",
        "(almost) completely filled; discrete, periodic curves", "87, 90"},
       at_least(0.5, "share of the range that the energy allows, P1 within 4.29 and P2 within 100: at least half"),
-      {{coarse, 0, "of 10^4 equal cells those that H = E meets at all, Sim+0.6I"},
-       {fine, 0, "of 40^4: they become ever fewer, and a closed curve fills nothing"}},
+      {{coarse, 0, "among 10^4 equal cells, those that the surface H = E meets, Sim+0.6I"},
+       {fine, 0, "among 40^4 cells: the share keeps falling, and a closed curve fills nothing"}},
       Grounds::identity);
   double share = 0;
   for (const double eps : {-0.6, 0.6}) {
@@ -256,7 +257,7 @@ void filled(Study& study) {
       at_least(0.99, "share of the rectangle that the energy allows"),
       {{share, 0.002, "v = (0, 1) and (1, 1), eps = 0.6 and -0.6: the largest"}}, Grounds::identity);
   study.note(
-      "P2 changes its sign at a bounce alone: a plot whose points are joined by lines crosses the rectangle there.");
+      "P2 changes its sign only at a bounce. If a plot joins its points by lines, they cross the rectangle there.");
 }
 
 }  // namespace sonnleitner_theory

@@ -69,26 +69,27 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
   // Where v1 changes its sign within the beam, slopes have no mean: the largest alone is a good part of their sum.
   const double largest = *std::max_element(all.slope.begin(), all.slope.end());
   const bool has_mean = largest < 0.01 * slope.mean * slope.members;
-  study.claim({"angle_" + name, what + ": the mean angle of the slope after reflection", word},
-              at_least(0, "the mean change of the angle, in the direction told, is beyond 3 standard errors of 0"),
-              {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
-                fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members,
-                            all.angle_before, angle.mean, angle.standard_error())}},
-              Grounds::program, "more trajectories: the default size, --full");
+  study.claim(
+      {"angle_" + name, what + ": the mean angle of the slope after reflection", word},
+      at_least(0, "the mean change of the angle in the stated direction is more than 3 standard errors above 0"),
+      {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
+        fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members, all.angle_before,
+                    angle.mean, angle.standard_error())}},
+      Grounds::program, "more trajectories: the default size, --full");
   study.claim(
       {"slope_" + name, what + ": the mean slope after reflection", word},
-      at_least(0, "the mean change of the slope, in the direction told, is beyond 3 standard errors of 0"),
+      at_least(0, "the mean change of the slope in the stated direction is more than 3 standard errors above 0"),
       {{sign * (slope.mean - all.slope_before),
         has_mean ? 3 * slope.standard_error() : std::numeric_limits<double>::infinity(),
         fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
                     slope.standard_error(), median(all.slope))}},
       Grounds::program,
-      has_mean
-          ? "more trajectories: the default size, --full"
-          : "no number of trajectories: v1 changes its sign within the beam, and 1/v1 has no mean; the claim of the "
-            "angle decides");
+      has_mean ? "more trajectories: the default size, --full"
+               : "nothing: v1 changes its sign within the beam, so 1/v1 has no mean for any number of trajectories; "
+                 "the claim of the "
+                 "angle decides");
   study.claim({"energy_" + name, what + ": the mean kinetic energy of the light body", sign < 0 ? "grows" : "falls"},
-              at_least(0, "the mean change, in the direction told, is beyond 3 standard errors of 0"),
+              at_least(0, "the mean change in the stated direction is more than 3 standard errors above 0"),
               {{-sign * (kinetic.mean - all.kinetic1_before), 3 * kinetic.standard_error(),
                 fmt::format("{:.4f} before, {:.4f} +- {:.4f} after", all.kinetic1_before, kinetic.mean,
                             kinetic.standard_error())}},
@@ -139,7 +140,7 @@ void single(Study& study) {
     study.claim(
         {side, fmt::format("{}: the trajectory is {} after its reflection", side, sign < 0 ? "flatter" : "steeper"),
          sign < 0 ? "flatter" : "steeper"},
-        at_least(0, "the change of its angle in the direction told"),
+        at_least(0, "the change of its angle in the stated direction"),
         {{sign * (after - before), 2 * std::abs(after - finer),
           fmt::format("from Q1 = {} with v = ({}, -1): {:.4f} to {:.4f}; +-: twice the difference to half of the step",
                       q1, v1, before, after)}});
@@ -222,12 +223,12 @@ void near_the_origin(Study& study) {
     study.claim(
         {"near_" + side, side + ": slopes change only near the origin", "only there"},
         at_most(std::hypot(1, 2.1) / 2,
-                "distance within which nine tenths of all turning happen, in angle; how near is not said: half as "
-                "far as the farthest corner"),
+                "distance within which nine tenths of the turning angle happen; the text does not say how near: half "
+                "the distance of the farthest corner"),
         {{within_which(0.9, in_ring, width), width / 2, fmt::format("{} trajectories", members)}}, Grounds::program,
         "the region that the thesis means");
-    study.claim({"straight_" + side, side + ": outside trajectories are straight", "straight"},
-                at_most(straight, "largest turning at distances above 1, in radians: no eye sees it"),
+    study.claim({"straight_" + side, side + ": outside this region trajectories are straight", "straight"},
+                at_most(straight, "largest turning angle at distances above 1, in radians, which no eye sees"),
                 {{furthest, 2 * std::abs(furthest - furthest_finer),
                   "largest of the beam; +-: twice the difference to half of the step"},
                  {furthest_faster, 2 * std::abs(furthest - furthest_finer),
@@ -246,8 +247,8 @@ void near_the_origin(Study& study) {
   panel.y_label = "turning per distance, radians";
   panel.aspect = 0.6;
   study.draw("figure",
-             "Change of the slope, in angle, over the distance from the origin at which it happens: mean of the "
-             "trajectories, per unit of distance",
+             "Change of the angle of the slope over the distance from the origin at which it happens, per unit of "
+             "distance: mean of the trajectories",
              {study.info().title, {panel}});
 }
 

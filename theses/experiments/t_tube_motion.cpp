@@ -55,7 +55,8 @@ Measured range_of_windows(const std::vector<double>& numbers, const std::string&
   }
   double off = 0;
   for (const double other : all) off = std::max(off, std::abs(other - all[0]));
-  return {all[0], off, fmt::format("{}; +-: the largest difference to {} windows as long behind it", how, windows - 1)};
+  return {all[0], off,
+          fmt::format("{}; +-: the largest difference from {} later windows of the same length", how, windows - 1)};
 }
 
 /// No |P2| is larger than that with P1 = 0 at the place of least potential energy.
@@ -85,7 +86,7 @@ Measured scatter_of_blocks(Study& study, const TubeRun& run, std::size_t blocks)
   double uncertainty = 0;
   for (const auto& some : means) uncertainty = std::max(uncertainty, std::abs(scatter(some) - of_start));
   return {of_start, uncertainty,
-          fmt::format("{} blocks of {} steps from the start on; +-: the largest difference to {} starts within 1e-9",
+          fmt::format("{} blocks of {} steps from the start; +-: the largest difference from {} starts within 1e-9",
                       blocks, run.steps, others)};
 }
 
@@ -129,10 +130,11 @@ void late_momenta(Study& study) {
   const LateMotion late = late_motions(study).front();
   const Trajectory path = continued_late(study, late, 60000, "late");
   const std::vector<double> light = path.momentum(0), heavy = path.momentum(1);
-  study.claim({"late_heavy_captured", "P2 stays between its start values also late, a motion that reject has captured",
-               "[-100, 100]", "89"},
-              at_most(110, "100 and a small deviation: how small is not said, a tenth"),
-              {range(heavy, "600 time units of the late motion +0.6I of S3.5")});
+  study.claim(
+      {"late_heavy_captured", "P2 stays between its start values also late, in a motion that reject has captured",
+       "[-100, 100]", "89"},
+      at_most(110, "100 and a small deviation; the text does not say how small, a tenth is allowed"),
+      {range(heavy, "600 time units of the late motion +0.6I of S3.5")});
   study.note(fmt::format(
       "P1 of the late motion drawn here stays within {:.4g}, not 4.29: each capture has a range of its own.",
       largest(light)));
@@ -153,7 +155,7 @@ void momenta(Study& study) {
     study.claim(
         {fmt::format("heavy_{}", rule),
          fmt::format("P2 stays within its start value, up to a small deviation, {}", rule), "[-100, 100]", "85, 89"},
-        at_most(110, "100 and a small deviation: how small is not said, a tenth"),
+        at_most(110, "100 and a small deviation; the text does not say how small, a tenth is allowed"),
         {range_of_windows(longer.momentum(1), "eps = -0.6, first 600 time units")}, Grounds::program,
         "other starts: a longer run of mirror has another energy");
     if (std::string(rule) == "reject") {
@@ -174,15 +176,15 @@ void momenta(Study& study) {
                 as_printed("4.29"),
                 {range_of_windows(attracted.momentum(0), "first 600 time units; the thesis looks at day 6")},
                 Grounds::program,
-                "the thesis' own start to its last digit: late motions differ from each other, as the captures of "
+                "the thesis' own start to its last digit: late motions differ from each other, as the captures in "
                 "S-capture show");
   }
-  study.claim({"heavy_bound", "P2 stays within its start value, up to a small deviation: what the energy allows",
+  study.claim({"heavy_bound", "P2 stays within its start value, up to a small deviation: the bound by the energy",
                "[-100, 100]", "85, 89"},
-              at_most(110, "100 and a small deviation: how small is not said, a tenth"),
+              at_most(110, "100 and a small deviation; the text does not say how small, a tenth is allowed"),
               {{bound_of_heavy(-0.6), 1e-10, "eps = -0.6, with P1 = 0 at (1, 2.1)"}});
   study.claim({"heavy_attracted", "P2 stays within its start value also where the force attracts", "[-100, 100]", "85"},
-              at_most(110, "100 and a small deviation: how small is not said, a tenth"),
+              at_most(110, "100 and a small deviation; the text does not say how small, a tenth is allowed"),
               {heavy_attracted, {bound_of_heavy(0.6), 1e-10, "what the energy allows: with P1 = 0 at (0, 0.1)"}},
               Grounds::program);
   late_momenta(study);
@@ -231,7 +233,7 @@ void claim_discrete(Study& study, const LateMotion& late) {
   const std::string motion = late.name;
   study.claim(
       {"discrete_" + motion,
-       "late positions are a discrete curve, run through periodically: a late motion of " + motion, "discrete", "92"},
+       "late positions are a discrete curve that is passed periodically: a late motion of " + motion, "discrete", "92"},
       at_most(1.01, "no new cells in four times the time"), {growth});
   study.draw(motion, fmt::format("Positions (3.5c) and momenta (3.5d) of a late motion of {}, reject", motion),
              {fmt::format("T-tube: late, {}", motion),
@@ -244,10 +246,11 @@ void curves(Study& study) {
     const Trajectory path = early(study, rule);
     const Trajectory longer = from_start(study, rule, -0.6, windows * ten_minutes, "windows");
     const double heavy = largest(path.momentum(1));
-    study.claim({fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
-                as_printed("100.3"),
-                {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; up to what the energy allows"}},
-                Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
+    study.claim(
+        {fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
+        as_printed("100.3"),
+        {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; +-: up to the bound by the energy"}},
+        Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
     study.claim({fmt::format("light_{}", rule), fmt::format("range of P1 during the transient, {}", rule), "4.5"},
                 as_printed("4.5"), {range_of_windows(longer.momentum(0), "first 600 time units")}, Grounds::program,
                 "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
@@ -265,10 +268,10 @@ void curves(Study& study) {
   }
   for (const LateMotion& late : late_motions(study)) claim_discrete(study, late);
   study.note(
-      "Which late motion the thesis shows is not told: three of those here are such as reject captures early; "
+      "The thesis does not say which late motion it shows. Three of those here are motions that reject captures early; "
       "Sim-0.6III, which reproduces the table, is regular from its start.");
   claim_discrete(study, {"-0.6III", -0.6, 0, {0.01, 1.1}, {6, 100}});
-  study.claim({"no_curve", "in the transient positions fill the rectangle, no curve", "filling the area", "90"},
+  study.claim({"no_curve", "in the transient positions fill the rectangle, not a curve", "filling the area", "90"},
               at_least(1.1, "new cells in four times the time"),
               {followed(study, {"early", -0.6, 0, {0.01, 1.1}, {0, 100}}, 40000).growth});
 }

@@ -63,7 +63,9 @@ void claim_sum(Study& study, const Pair& pair, const Ensembles& changes) {
        fmt::format("both numbers of column {} belong to one run: their sum, {:+.4f}, is a change of potential energy",
                    pair.name, printed),
        fmt::format("{}, {}", pair.change1, pair.change2)},
-      at_most(0.3, "sum of the changes against V0 - <V>; energies that reject loses in a long run are below it"),
+      at_most(
+          0.3,
+          "difference of the sum of the changes and V0 - <V>; reject loses less energy than this limit in a long run"),
       {{std::abs(printed - sum.mean), changes.scatter(&Changes::both), fmt::format("runs have {:+.4f}", sum.mean)},
        {std::abs(printed - even), std::abs(mean_potential(pair.eps, 2000) - mean_potential(pair.eps, 1000)),
         fmt::format("a motion that fills the rectangle evenly has {:+.4f}", even)}},
@@ -85,9 +87,8 @@ void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const std::o
   std::vector<Measured> measured;
   std::string decided_by = "longer runs: the default size, --full";
   if (changes && changes->measured() && (own || (usual && usual->measured()))) {
-    decided_by =
-        own ? "the thesis' own start to its last digit and its number of steps: starts beside it come to other means"
-            : "nothing with this rule and step, which are not the table's";
+    decided_by = own ? "the thesis' own start to its last digit and its number of steps; nearby starts have other means"
+                     : "nothing with this rule and step size, which are not the table's";
     Measured first = distance_of(pair.change1, *changes, &Changes::first, "kinEnKx");
     Measured second = distance_of(pair.change2, *changes, &Changes::second, "kinEnKy");
     if (!own) {
@@ -101,11 +102,11 @@ void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const std::o
   study.claim(
       {fmt::format("pair_{}_{}_{}", pair.name, run.rule, run.dt),
        own ? "changes of both kinetic energies, " + how
-           : fmt::format("the changes of a run with {} come out with another rule or step, too: {}", table_has, how),
+           : fmt::format("a run with another rule or step size has the same changes as with {}: {}", table_has, how),
        fmt::format("{}, {}", pair.change1, pair.change2)},
       at_most(half_a_unit, own ? "distance from the printed number, half a unit of its last digit"
-                               : "distance from the printed number, half a unit of its last digit; +-: also how far "
-                                 "these runs are from those with the table's rule and step"),
+                               : "distance from the printed number, half a unit of its last digit; +- includes the "
+                                 "difference from runs with the table's rule and step size"),
       measured, Grounds::program, decided_by);
 }
 
@@ -202,7 +203,7 @@ void claim_relative(Study& study, const char* name, const std::string& change, d
                     const std::string& fits) {
   study.claim({fmt::format("relative_{}", name),
                fmt::format("relative change of column {}: {} (from {:g})", name, change, from), relative + " fold"},
-              as_printed(relative), {{std::stod(change) / from, 0, "of the numbers printed above it; " + fits}},
+              as_printed(relative), {{std::stod(change) / from, 0, "from the numbers printed above it; " + fits}},
               Grounds::identity);
 }
 
@@ -210,7 +211,7 @@ void claim_relative(Study& study, const char* name, const std::string& change, d
 void claim_start(Study& study, const char* name, double v1, const std::string& from) {
   study.claim(
       {fmt::format("start_{}", name), fmt::format("column {}: vKx = {:g} and kinEnKx (from {})", name, v1, from), from},
-      at_most(0.05, "v^2/2 against the energy in brackets, to its digits"),
+      at_most(0.05, "difference of v^2/2 and the energy in brackets, to its digits"),
       {{std::abs(v1 * v1 / 2 - std::stod(from)), 0, "two printed numbers of one column"}}, Grounds::identity);
 }
 
@@ -227,7 +228,7 @@ void table(Study& study) {
   claim_relative(study, "+0.6IV", "2.3424", 18, "0.004", "it is 0.1756/50, of -0.6IV");
   study.nothing_to_test("masses",
                         "the listing of page 102 has the masses 1/100 and 10000, the table 1 and 100: two printed "
-                        "lists, of which no run says which one was meant");
+                        "lists, and no run can tell which one was meant");
   the_thesis_own_run(study);
   compare_starts(study);
 }
@@ -294,13 +295,13 @@ void trend(Study& study, double eps, const std::vector<std::string>& starts, con
   const auto claim = [&](const std::string& name, const std::string& statement, const Followers& followers) {
     const std::string decided_by = !is_long ? "longer runs: the default size, --full"
                                    : followers.of_v1() > followers.of_open()
-                                       ? "the v1 of the thesis' own series, for it depends on them"
+                                       ? "the v1 of the thesis' own series, because the result depends on them"
                                    : not_measured > followers.all().open / 2 ? "runs that keep H, with a smaller step"
                                                                              : "still longer runs";
     std::vector<Measured> measured;
     if (is_long) measured.push_back(followers.share(not_measured));
     study.claim({fmt::format("{}_{}_{}", side, name, rule), statement + ", " + rule,
-                 "what a series of simulations comes to; exceptions in its table: " + exceptions},
+                 "the result of a series of simulations; exceptions in its table: " + exceptions},
                 trend_rule(), measured, Grounds::program, decided_by);
   };
   claim("light",

@@ -84,7 +84,7 @@ constexpr std::string_view hint(Outcome outcome) {
     case Outcome::non_finite:
       return "try a smaller dt; the energies of the last samples show where the error began";
     case Outcome::lattice_overflow:
-      return "a position or momentum left the range of 2^62 lattice units: set larger powers of two in run.lattice";
+      return "a position or momentum left the range of 2^62 grid spacings: set larger powers of two in run.lattice";
     case Outcome::wall:
       return "try a smaller dt; a motion that stays pressed onto a wall cannot be resolved into bounces";
     case Outcome::outside:

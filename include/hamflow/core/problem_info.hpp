@@ -73,7 +73,7 @@ struct ExampleInfo {
   std::vector<double> q{};
   std::vector<double> p{};
   double dt = 0;
-  std::int64_t steps = 1000;
+  std::int64_t steps = 10000;
   std::string start{};  // the kind of the geometric start; empty: the start is a state
   Texts keys{};         // values of some of ProblemInfo::keys; an empty value: the example of the key
 };

@@ -1,4 +1,4 @@
-// The options of step control and the claims of methods with it. Reversible steps of varying length are implemented in
+// The options of step control and the claims of methods with it. Reversible steps of varying size are implemented in
 // detail/methods/step_density.hpp.
 #pragma once
 
@@ -16,7 +16,7 @@ inline constexpr const char* monitor_option = "monitor";
 inline constexpr const char* default_monitor = "arclength";
 inline constexpr const char* distance_monitor_name = "distance";
 
-/// The claims of a method with steps of varying length. The map of (z, density) is symmetric and reversible if the
+/// The claims of a method with steps of varying size. The map of (z, density) is symmetric and reversible if the
 /// method is, and conserves the energy if each step does. It is not symplectic.
 /// @return claims with a name such as "stv4(step_control=reversible,monitor=distance)"
 inline MethodInfo with_varying_steps(MethodInfo info, const std::string& monitor) {

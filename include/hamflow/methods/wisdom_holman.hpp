@@ -15,11 +15,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/detail/methods/close_encounter.hpp"
 #include "hamflow/orbits/kepler_drift.hpp"
 
 namespace hamflow {
@@ -62,10 +64,10 @@ std::vector<R> corrector_weights(std::size_t stages) {
 template <class R>
 struct JacobiState {
   using Space = Vector<R, 3>;
-  std::vector<Space> r;
-  std::vector<Space> v;
-  std::vector<Space> added_r;
-  std::vector<Space> added_v;
+  PooledList<Space> r;
+  PooledList<Space> v;
+  PooledList<Space> added_r;
+  PooledList<Space> added_v;
 };
 
 /// Bodies of given masses in Jacobi coordinates, and the two parts of their motion.
@@ -73,11 +75,18 @@ template <class R>
 class JacobiSplitting {
  public:
   using Space = Vector<R, 3>;
-  using Spaces = std::vector<Space>;
+  using Spaces = PooledList<Space>;
 
   /// @param masses the heaviest first; 0: a massless body
-  JacobiSplitting(std::vector<R> masses, const R& gravitational_constant)
-      : constant_(gravitational_constant), total_(R(0)), masses_(std::move(masses)) {
+  /// @param softening_squared B has what softening changes: the splitting is then right, but the error of a step is no
+  /// longer proportional to the masses of the planets
+  JacobiSplitting(const std::vector<R>& masses, const R& gravitational_constant, const R& softening_squared = R(0))
+      : constant_(gravitational_constant),
+        softening_squared_(softening_squared),
+        is_softened_(R(0) < softening_squared),
+        total_(R(0)),
+        masses_(masses.begin(), masses.end()),
+        encounters_(masses_) {
     share_.resize(masses_.size());
     attraction_.resize(masses_.size());
     for (std::size_t i = 0; i < masses_.size(); ++i) {
@@ -138,9 +147,21 @@ class JacobiSplitting {
   }
 
   JacobiState<R> state_of(const Spaces& positions, const Spaces& velocities) const {
-    const Spaces none(positions.size());
-    return {jacobi_of(positions), jacobi_of(velocities), none, none};
+    JacobiState<R> state;
+    state_of(positions, velocities, state);
+    return state;
   }
+  void state_of(const Spaces& positions, const Spaces& velocities, JacobiState<R>& state) const {
+    jacobi_of(positions, state.r);
+    jacobi_of(velocities, state.v);
+    state.added_r.assign(positions.size(), {});
+    state.added_v.assign(positions.size(), {});
+  }
+
+  /// Begins to watch for close encounters at the kicks of steps, or ends it.
+  void watch_encounters(bool watches) { encounters_.watch(watches); }
+  /// The first encounter since then; nullopt if there was none.
+  const std::optional<EncounterOfTwo>& first_encounter() const { return encounters_.first(); }
 
   /// Applies A over a time h. The state is only partly changed if the outcome is not `done`.
   Outcome drift(JacobiState<R>& state, const R& h) const {
@@ -163,19 +184,19 @@ class JacobiSplitting {
 
   /// B over a time h.
   void kick(JacobiState<R>& state, const R& h) {
-    interaction(state.r);
+    interaction(state.r, true);
     push(state, h);
   }
 
   /// B over a time h, with the forces at r + (h^2/12) a.
   void lazy_kick(JacobiState<R>& state, const R& h) {
-    interaction(state.r);
+    interaction(state.r, true);
     moved_ = state.r;
     const R factor = h * h / R(12);
     for (std::size_t i = 0; i < moved_.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) moved_[i][k] += factor * acceleration_[i][k];
     }
-    interaction(moved_);
+    interaction(moved_, false);
     push(state, h);
   }
 
@@ -193,23 +214,30 @@ class JacobiSplitting {
 
   /// C = Z(-m) ... Z(-1) Z(1) ... Z(m) from left to right, Z(k) = A(k s) B(-b_k dt) A(-2 k s) B(b_k dt) A(k s), s =
   /// sqrt(7/40) dt, b_-k = -b_k: to the variables in which the map runs. Undone with the weights negated.
-  Outcome correct(JacobiState<R>& state, const R& dt, const std::vector<R>& weights) {
+  template <class List>
+  Outcome correct(JacobiState<R>& state, const R& dt, const List& weights) {
     const int stages = static_cast<int>(weights.size());
     const R unit = sqrt(R(7) / R(40)) * dt;
+    const auto corrector_kick = [&](const R& h) {
+      interaction(state.r, false);
+      push(state, h);
+    };
+    R before(0);  // the last drift of Z(k - 1), which is joined with the first one of Z(k)
     for (int k = -stages; k <= stages; ++k) {
       if (k == 0) continue;
       const R move = R(k) * unit;
       const R push_by = (k < 0 ? R(-1) : R(1)) * weights[static_cast<std::size_t>(k < 0 ? -k : k) - 1] * dt;
-      Outcome outcome = drift(state, move);
+      if (k != 1) {  // the drifts between Z(-1) and Z(1) cancel
+        const Outcome outcome = drift(state, before + move);
+        if (outcome != Outcome::done) return outcome;
+      }
+      corrector_kick(-push_by);
+      const Outcome outcome = drift(state, R(-2) * move);
       if (outcome != Outcome::done) return outcome;
-      kick(state, -push_by);
-      outcome = drift(state, R(-2) * move);
-      if (outcome != Outcome::done) return outcome;
-      kick(state, push_by);
-      outcome = drift(state, move);
-      if (outcome != Outcome::done) return outcome;
+      corrector_kick(push_by);
+      before = move;
     }
-    return Outcome::done;
+    return stages > 0 ? drift(state, before) : Outcome::done;
   }
 
  private:
@@ -225,20 +253,23 @@ class JacobiSplitting {
   }
 
   /// The acceleration of B, in Jacobi coordinates, becomes acceleration_.
-  void interaction(const Spaces& jacobi) {
+  /// @param in_step whether a step needs it; encounters within a corrector do not count
+  void interaction(const Spaces& jacobi, bool in_step) {
     const std::size_t first = massive_[0];
     relative_ = jacobi;
     relative_[first] = {};  // the centre of mass, far from which differences would lose digits
     Spaces& r = inertial_;
     inertial_of(relative_, r);
     pulls_.assign(r.size(), {});
+    const bool watches = in_step && encounters_.begin(jacobi);
     const auto attract = [&](std::size_t i, std::size_t j) {
       Space d;
-      R square(0);
+      R square = softening_squared_;
       for (std::size_t k = 0; k < 3; ++k) {
         d[k] = r[j][k] - r[i][k];
         square += d[k] * d[k];
       }
+      if (watches && i != first) encounters_.look(i, j, square);
       const R factor = constant_ / (square * sqrt(square));
       for (std::size_t k = 0; k < 3; ++k) {
         pulls_[i][k] += factor * masses_[j] * d[k];
@@ -247,14 +278,14 @@ class JacobiSplitting {
     };
     for (std::size_t a = 0; a < massive_.size(); ++a) {
       for (std::size_t b = a + 1; b < massive_.size(); ++b) {
-        if (a != 0 || b != 1) attract(massive_[a], massive_[b]);
+        if (is_softened_ || a != 0 || b != 1) attract(massive_[a], massive_[b]);
       }
       for (const std::size_t i : massless_) attract(massive_[a], i);
     }
     jacobi_of(pulls_, acceleration_);
     acceleration_[first] = {};
     for (std::size_t i = 0; i < jacobi.size(); ++i) {
-      if (i == first || (massive_.size() > 1 && i == massive_[1])) continue;
+      if (i == first || (!is_softened_ && massive_.size() > 1 && i == massive_[1])) continue;
       R square(0);
       for (std::size_t k = 0; k < 3; ++k) square += jacobi[i][k] * jacobi[i][k];
       const R factor = attraction_[i] / (square * sqrt(square));
@@ -263,18 +294,21 @@ class JacobiSplitting {
   }
 
   R constant_;
+  R softening_squared_;
+  bool is_softened_;
   R total_;
-  std::vector<R> masses_;
-  std::vector<R> share_;       // m_i/M_i
-  std::vector<R> attraction_;  // of each body about the centre of mass of those before it, G M_i
-  std::vector<std::size_t> massive_;
-  std::vector<std::size_t> massless_;
+  PooledList<R> masses_;
+  PooledList<R> share_;       // m_i/M_i
+  PooledList<R> attraction_;  // of each body about the centre of mass of those before it, G M_i
+  PooledList<std::size_t> massive_;
+  PooledList<std::size_t> massless_;
   // Memory of `interaction`, kept from step to step.
   Spaces acceleration_;
   Spaces relative_;
   Spaces inertial_;
   Spaces pulls_;
   Spaces moved_;
+  EncounterWatch<R> encounters_;
 };
 
 }  // namespace hamflow

@@ -80,6 +80,13 @@ struct ParticleFacts {
   double repulsion = 0;          // two particles repel each other within this distance; 0: unknown
 };
 
+/// Why a start is refused.
+struct StartRefusal {
+  std::string message{};                 // follows the word "found"; empty: the start is accepted
+  std::string key{};                     // the key of the wall or container at fault; empty: another reason
+  std::vector<std::size_t> particles{};  // the particles at fault, numbered from 1
+};
+
 /// A problem of the catalogue; a problem with a choice of potentials has an entry for each. Functions take complete
 /// parameters.
 struct ProblemEntry {
@@ -92,8 +99,8 @@ struct ProblemEntry {
   std::function<std::string(const Texts& parameters, std::size_t size)> refused_size;
   /// The key at fault and the error of parameters that contradict each other.
   std::function<std::pair<std::string, std::string>(const Texts& parameters)> refused_parameters;
-  /// The error of a start; empty if it is accepted.
-  std::function<std::string(const Texts& parameters, const std::vector<double>& q)> refused_start;
+  /// Whether a start is refused, and why.
+  std::function<StartRefusal(const Texts& parameters, const std::vector<double>& q)> refused_start;
   /// Whether the problem has the capabilities that the method needs.
   std::function<bool(const MethodSpec&)> accepts;
   bool has_pairwise_forces = false;  // several threads may compute them on the lattice

@@ -127,8 +127,8 @@ class Simulation {
   virtual bool is_recorded() const { return false; }
   /// The counts of each hard wall since the start.
   virtual std::vector<WallCount> wall_counts() const { return {}; }
-  /// Calls `told` for every later bounce, in order, when its step is done. Copies do not call it.
-  virtual void tell_bounces(std::function<void(const Bounce&)> /*told*/) {}
+  /// Calls `callback` for every later bounce, in order, when its step is done. Copies do not call it.
+  virtual void on_bounce(std::function<void(const Bounce&)> /*callback*/) {}
 
   /// After this call, advance() adds the values of expressions after each step to sums. This gives the same result as
   /// an observer of every step (detail/run/step_sums.hpp), but faster. An empty list ends it. Copies do not add.

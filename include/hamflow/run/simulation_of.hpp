@@ -51,8 +51,8 @@ class SimulationOf : public SimulationState<P, A, Probe> {
                Real t0 = 0)
       : State(std::move(problem), q, p, h, arithmetic, t0), method_(std::move(method)) {}
 
-  /// From now on takes reversible steps of varying length, for a symmetric method; the first has the length of the
-  /// equal steps (detail/methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
+  /// From now on takes reversible steps of varying size, for a symmetric method; the first has the size of the
+  /// equal steps (detail/methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the sizes.
   [[gnu::cold]] void vary_steps(typename State::Monitor monitor) {
     State::begin_varying(std::move(monitor));
     if constexpr (requires { method_.keep_unscaled_force(); }) method_.keep_unscaled_force();

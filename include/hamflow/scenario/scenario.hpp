@@ -11,6 +11,7 @@
 
 #include "hamflow/core/complaint.hpp"
 #include "hamflow/detail/problems/two_bodies.hpp"
+#include "hamflow/orbits/bodies.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/section.hpp"
 
@@ -28,6 +29,21 @@ struct UserEvent {
   std::string name;
   Section zero;        // given as an expression with value 0
   bool stops = false;  // the run ends with the step of the event
+};
+
+/// Names of units, if the scenario has them.
+struct UnitNames {
+  std::string length;
+  std::string time;
+  std::string mass;
+};
+
+/// Orbital elements that are recorded with the samples.
+struct RecordedElements {
+  Primary primary = Primary::jacobi;
+  std::size_t of = 0;  // the body that is the primary, for Primary::body
+  std::vector<double> masses{};
+  double gravitational_constant = 0;
 };
 
 struct Scenario {
@@ -56,6 +72,9 @@ struct Scenario {
   bool certificate = true;                       // requested; a map has none
   std::vector<std::string> notes;                // remarks that are not errors
   std::optional<TwoBodies> bodies;               // if the start is given by two bodies in space
+  std::vector<std::string> body_names;           // of bodies under gravity; empty: they have none
+  UnitNames units;                               // empty: those of the input
+  std::optional<RecordedElements> elements;      // nothing: not requested
   std::vector<double> start_q;                   // in double, canonical
   std::vector<double> start_p;
   std::optional<std::uint64_t> start_contents{};  // hash of the numbers, if the start is read from a file

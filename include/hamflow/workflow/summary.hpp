@@ -59,6 +59,8 @@ struct EnergySummary {
   std::optional<double> scale;  // max(|H0|, |T| + |V|, p dH/dp); nullopt: the problem is a map
   // max_error divided by the scale; nullopt: H is 0 at the start, or the problem is a map
   std::optional<LongNumber> max_relative_error{};
+  // "recorded states": of a method with a corrector, as for invariants and means; empty: of every step
+  std::string of{};
 };
 
 /// H(q, p, t) of a driven problem.
@@ -199,6 +201,7 @@ struct Summary {
   std::optional<ConstraintResiduals> constraints{};  // largest over every step; nullopt: there are no constraints
   std::optional<DiagnosticsSummary> diagnostics{};   // nullopt: method.diagnostics does not request them
   std::vector<Body> bodies{};                        // bodies of a two-body problem at the end; else empty
+  Value::Table elements{};                           // of each body at the end; empty: not requested
   std::optional<OrbitSummary> orbit{};               // nullopt: there is no central force, or the problem is a map
   std::optional<ExactSummary> exact{};               // nullopt: no closed form is known
   Effort effort{};                                   // numbers of evaluations and linear solves

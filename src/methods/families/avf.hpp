@@ -35,7 +35,7 @@ struct Avf {
         .advice =
             [](std::size_t) {
               return MethodAdvice{
-                  .take = "you know cg by this name",
+                  .take = "you look for the averaged vector field method by its name",
                   .avoid = "a higher order is needed: cg(2), cg(3); many cheap steps are enough: verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },

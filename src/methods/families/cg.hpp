@@ -13,7 +13,7 @@ namespace hamflow::families {
 struct Cg {
   static const BoundOptions<CgOptions>& options() {
     static const BoundOptions<CgOptions> all = [] {
-      BoundOptions<CgOptions> list{degree_option<CgOptions>("polynomial degree in time; the order is twice that",
+      BoundOptions<CgOptions> list{degree_option<CgOptions>("polynomial degree in time; the order is twice the degree",
                                                             Range::whole_from(1, most_gauss_points - 1)),
                                    quadrature_option<CgOptions>(2)};
       add_newton_options(list);

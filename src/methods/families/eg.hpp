@@ -13,7 +13,8 @@ struct Eg {
   static const BoundOptions<EgOptions>& options() {
     static const BoundOptions<EgOptions> all = [] {
       BoundOptions<EgOptions> list{degree_option<EgOptions>(
-          "polynomial degree in time, and Gauss points; the order is twice that", Range::whole_from(1, 3))};
+          "polynomial degree in time and number of Gauss points; the order is twice this number",
+          Range::whole_from(1, 3))};
       add_newton_options(list);
       return list;
     }();

@@ -10,8 +10,9 @@ namespace hamflow::families {
 
 struct ForceGradient {
   static MethodFamily declared() {
-    MethodFamily family{.name = "force-gradient",
-                        .meaning = "splittings with the gradient of the force, T quadratic with constant mass matrix"};
+    MethodFamily family{
+        .name = "force-gradient",
+        .meaning = "splittings with the gradient of the force, for T quadratic with constant mass matrix"};
     for (const ForceGradientTable* table : force_gradient_tables()) family.methods.emplace_back(table->name);
     family.describe = [](std::size_t method, const Texts&) { return describe(*force_gradient_tables()[method]); };
     family.needs = [](std::size_t) { return needs_separable(true) + ", V twice differentiable"; };

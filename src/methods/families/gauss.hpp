@@ -12,8 +12,8 @@ namespace hamflow::families {
 struct Gauss {
   static const BoundOptions<GaussOptions>& options() {
     static const BoundOptions<GaussOptions> all = [] {
-      BoundOptions<GaussOptions> list{
-          stages_option<GaussOptions>("Gauss points; the order is twice that", Range::whole_from(1, 10))};
+      BoundOptions<GaussOptions> list{stages_option<GaussOptions>(
+          "number of Gauss points; the order is twice this number", Range::whole_from(1, 10))};
       add_newton_options(list);
       return list;
     }();

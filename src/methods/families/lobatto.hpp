@@ -13,7 +13,7 @@ struct Lobatto {
   static const BoundOptions<LobattoOptions>& options() {
     static const BoundOptions<LobattoOptions> all = [] {
       BoundOptions<LobattoOptions> list{
-          stages_option<LobattoOptions>("stages of the pair; the order is 2 stages - 2", Range::whole_from(2, 10))};
+          stages_option<LobattoOptions>("number of stages; the order is 2*stages - 2", Range::whole_from(2, 10))};
       add_newton_options(list);
       return list;
     }();

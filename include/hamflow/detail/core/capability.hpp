@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hamflow/core/constraints.hpp"
+#include "hamflow/detail/core/point_masses.hpp"
 #include "hamflow/detail/core/radial_forces.hpp"
 
 namespace hamflow {
@@ -13,7 +14,8 @@ enum class Capability : unsigned {
   cyclic = 4,             // the last coordinate is cyclic
   charge = 8,             // a charge in a uniform magnetic field
   radial = 16,            // forces along the lines between bodies or to a centre
-  constrained = 32        // constraints g(q) = 0
+  constrained = 32,       // constraints g(q) = 0
+  gravitating = 64        // bodies that attract each other as points
 };
 constexpr Capability operator|(Capability a, Capability b) {
   return static_cast<Capability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -30,6 +32,7 @@ constexpr Capability capabilities_of() {
   if constexpr (ChargeInField<P>) all = all | Capability::charge;
   if constexpr (RadialForces<P>) all = all | Capability::radial;
   if constexpr (Constrained<P>) all = all | Capability::constrained;
+  if constexpr (GravitatingBodies<P>) all = all | Capability::gravitating;
   return all;
 }
 

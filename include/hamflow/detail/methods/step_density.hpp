@@ -1,4 +1,4 @@
-// Reversible steps of varying length: explicit step density control.   [HairerSoederlind2005; HLW2006, Sect. VIII.3.2]
+// Reversible steps of varying size: explicit step density control.   [HairerSoederlind2005; HLW2006, Sect. VIII.3.2]
 // rho is the density of steps, their number per time dt. With sigma(z), the wanted step size up to a factor, and G =
 // -d/dt ln sigma along the motion,
 //     rho_{n+1/2} = rho_{n-1/2} + dt G(z_n),   h = dt/rho_{n+1/2},   z_{n+1} = Psi_h(z_n),   t_{n+1} = t_n + h

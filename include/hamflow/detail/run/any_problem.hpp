@@ -128,6 +128,10 @@ class Functions {
   virtual std::size_t radial_space() const = 0;
   virtual std::vector<RadialTerm<base_scalar<S>>> radial_terms() const = 0;
   virtual RadialLaw<S> radial_law(const S& u) const = 0;
+  // Of gravitating bodies.
+  virtual PointMasses<base_scalar<S>> point_masses() const {
+    throw std::logic_error("hamflow: the problem has no gravitating bodies");
+  }
 
  private:
   [[noreturn]] static void no_constraints() { throw std::logic_error("hamflow: the problem has no constraints"); }
@@ -367,6 +371,13 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
+  PointMasses<base_scalar<S>> point_masses() const override {
+    if constexpr (GravitatingBodies<P> && std::is_same_v<S, RealOf<P>>) {
+      return problem_.point_masses();
+    } else {
+      absent();
+    }
+  }
 
  private:
   [[noreturn]] static void absent() { throw std::logic_error("hamflow: the problem does not have this function"); }
@@ -411,6 +422,7 @@ class AnyProblem {
   static constexpr bool charge = includes(capability, Capability::charge);
   static constexpr bool radial = includes(capability, Capability::radial);
   static constexpr bool constrained = includes(capability, Capability::constrained);
+  static constexpr bool gravitating = includes(capability, Capability::gravitating);
 
   AnyProblem(std::size_t size, std::shared_ptr<const Functions<R>> own,
              std::shared_ptr<const Functions<Others>>... others)
@@ -569,6 +581,7 @@ class AnyProblem {
   RadialLaw<S> radial_law(const S& u) const requires radial {
     return on<S>().radial_law(u);
   }
+  PointMasses<R> point_masses() const requires gravitating { return on<R>().point_masses(); }
 
  private:
   template <class S>

@@ -33,7 +33,7 @@ inline std::string arithmetic_kind(std::string_view name, int digits) {
   }
 }
 [[gnu::noinline]] inline void expect_same_step(bool same) {
-  if (!same) throw Error("the saved state belongs to another step length");
+  if (!same) throw Error("the saved state belongs to another step size");
 }
 }  // namespace detail
 
@@ -227,7 +227,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   [[gnu::cold]] std::string unusable_density() const {
     if (!density_ || density_->is_usable()) return {};
     return "the density of steps became " + shortest(static_cast<double>(density_->density())) +
-           ": the step length that the monitor gives changes too much within one step";
+           ": the step size that the monitor gives changes too much within one step";
   }
 
   [[gnu::cold]] static Vector<Real, dynamic> values(const auto& x) {
@@ -331,7 +331,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   Real initial_energy_{};
   Real scale_{};
   typename A::Stored span_of_clock_{};     // on the lattice, while the time runs backwards
-  std::optional<StepDensity<A>> density_;  // for reversible steps of varying length
+  std::optional<StepDensity<A>> density_;  // for reversible steps of varying size
   std::shared_ptr<const Monitor> monitor_;
 };
 

@@ -41,6 +41,7 @@ struct EnergySeries {
   // H - H0 in any unit, beginning with 0 for the start; their squares must not overflow
   std::vector<double> deviations;
   std::optional<double> periods{};  // periods seen of the slowest oscillation of q and p; nullopt: no turning point
+  std::string counted = "periods";  // what `periods` counts, for messages
   bool steady = true;               // false: all turning points came before the range of the motion last doubled
   // a coordinate or momentum had turning points, but none since its range last doubled
   bool outgrown = false;

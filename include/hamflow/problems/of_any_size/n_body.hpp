@@ -1,6 +1,7 @@
 // N bodies of any masses under gravity, in the plane or in space.   [HLW2006, (I.2.11)]
 #pragma once
 
+#include "hamflow/detail/problems/body_keys.hpp"
 #include "hamflow/detail/problems/gravity.hpp"
 
 namespace hamflow {
@@ -18,13 +19,8 @@ class NBody : public Gravity<R> {
             .formula = "H = sum |p_i|^2/(2 m_i) - G sum_{i<j} m_i m_j/sqrt(r_ij^2 + softening^2)",
             .reference = "HLW2006, (I.2.11)",
             .coordinates = {"x1", "y1", "(z1)", "x2", "..."},
-            .parameters = {{.name = "masses",
-                            .meaning = "masses, one for each body",
-                            .range = Range::positive,
-                            .type = OptionType::list,
-                            .required = true},
-                           {"gravitational_constant", "1", "G"},
-                           {"softening", "0", "length", Range::not_negative}},
+            .parameters = n_body_parameters(),
+            .keys = n_body_keys(),
             .invariants = Gravity<R>::gravity_invariants(),
             .frame = Gravity<R>::frame_key(StartFrames::given),
             // The softening is so large that close encounters are not faster than the motion at the start.
@@ -37,7 +33,8 @@ class NBody : public Gravity<R> {
                         .q = {0, 0, 1, 0, 0, -1.7},
                         .p = {-0.00038, -0.001, 0, 0.001, 0.00038, 0},
                         .dt = 0.05,
-                        .steps = 2000}};
+                        .steps = 2000,
+                        .keys = {{"masses", "[1, 0.001, 0.0005]"}, {"gravitational_constant", ""}, {"softening", ""}}}};
   }
   /// Why q cannot have that many numbers; empty if it can.
   static std::string refused_size(const Parameters<R>& given, std::size_t size) {
@@ -54,6 +51,7 @@ class NBody : public Gravity<R> {
     const std::size_t space = q.size() / bodies;
     for (std::size_t i = 0; i < bodies; ++i) {
       for (std::size_t j = i + 1; j < bodies; ++j) {
+        if (!(given.list("masses")[i] + given.list("masses")[j] > R(0))) continue;  // they do not feel each other
         bool apart = false;
         for (std::size_t k = 0; k < space; ++k) apart = apart || !(q[i * space + k] == q[j * space + k]);
         if (!apart) {

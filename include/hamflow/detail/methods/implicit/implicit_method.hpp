@@ -72,7 +72,7 @@ class ImplicitMethod {
     return counted(problem, h, z, &unknowns);
   }
 
-  /// Drops the guesses and the points of "auto", which belong to steps of one length in one direction.
+  /// Drops the guesses and the points of "auto", which belong to steps of one size in one direction.
   void invalidate() {
     newton_.forget();
     if constexpr (requires { setup_.restart(); }) {

@@ -122,7 +122,7 @@ class Newton {
 
   /// Call this after each step that is taken.
   void remember(const E& step, const Solution& found) { memory_.remember(step.memory(found.x, found.taken)); }
-  /// Drops the memory, which belongs to steps of one length in one direction.
+  /// Drops the memory, which belongs to steps of one size in one direction.
   void forget() {
     memory_.forget();
     guess_failures_ = 0;

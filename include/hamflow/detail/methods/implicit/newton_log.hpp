@@ -30,10 +30,10 @@ class NewtonLog {
   /// Records a residual; of many iterations the first and the last few are reported.
   [[gnu::cold, gnu::noinline]] void residual(double norm) {
     const std::string number = (iterations_ == 0 ? "" : ", ") + shortest(norm);
-    if (iterations_ < told) {
+    if (iterations_ < shown) {
       text_ += number;
     } else {
-      latest_[static_cast<std::size_t>(iterations_ % told)] = number;
+      latest_[static_cast<std::size_t>(iterations_ % shown)] = number;
     }
     ++iterations_;
   }
@@ -54,9 +54,9 @@ class NewtonLog {
 
   std::string text() const {
     std::string all = text_;
-    if (iterations_ > 2 * told) all += ", ... (" + std::to_string(iterations_ - 2 * told) + " more)";
-    for (int i = std::max(told, iterations_ - told); i < iterations_; ++i) {
-      all += latest_[static_cast<std::size_t>(i % told)];
+    if (iterations_ > 2 * shown) all += ", ... (" + std::to_string(iterations_ - 2 * shown) + " more)";
+    for (int i = std::max(shown, iterations_ - shown); i < iterations_; ++i) {
+      all += latest_[static_cast<std::size_t>(i % shown)];
     }
     return all;
   }
@@ -67,9 +67,9 @@ class NewtonLog {
   bool change_unseen() const { return change_unseen_; }
 
  private:
-  static constexpr int told = 4;
+  static constexpr int shown = 4;
   std::string text_;
-  std::array<std::string, told> latest_;
+  std::array<std::string, shown> latest_;
   int attempts_ = 0;
   int iterations_ = 0;
   double solved_part_ = 0;
