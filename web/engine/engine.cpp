@@ -55,9 +55,6 @@ class Motion {
         start_bits_(simulation_->bits()) {
     simulation_->look(frame_);
     start_ = frame_;
-    simulation_->tell_bounces([this](const Bounce& bounce) {
-      if (bounces_.size() < most_bounces) bounces_.push_back(bounce);
-    });
     if (scenario_.section)
       section_ = std::make_unique<SectionFinder>(*simulation_, *scenario_.section,
                                                  [this](const SectionPoint& point) { append_point(point); });
@@ -130,7 +127,7 @@ class Motion {
             {"invariants", invariants},
             {"walls", walls},
             {"particles", particles},
-            {"section", scenario_.section.has_value()},
+            {"section", section_facts()},
             {"observables", observables()},
             {"notes", scenario_.notes}};
   }
@@ -195,22 +192,23 @@ class Motion {
             {"reversal", reversal}};
   }
 
-  Json bounces() const {
-    Json all = Json::array();
-    for (const Bounce& each : bounces_) all.push_back({each.time, each.coordinate, each.side});
-    return all;
-  }
-
   std::size_t width() const { return 2 + 2 * start_.q.size() + expressions_.size(); }
   const std::vector<double>& rows() const { return rows_; }
   const std::vector<double>& points() const { return points_; }
 
  private:
-  static constexpr std::size_t most_bounces = 100'000;
-
   std::string failure() const {
     const std::string more = simulation_->failure();
     return more.empty() ? std::string(message(outcome_)) : more;
+  }
+  Json section_facts() const {
+    if (!scenario_.section) return {};
+    const Section& section = *scenario_.section;
+    return {{"coordinate", section.coordinate},
+            {"momentum", section.momentum},
+            {"is_plane", !section.expression && !section.is_stroboscopic},
+            {"value", section.value},
+            {"direction", section.direction}};
   }
   Json observables() const {
     Json all = Json::array();
@@ -243,7 +241,6 @@ class Motion {
   std::vector<StateExpression> expressions_;
   std::vector<double> rows_;
   std::vector<double> points_;
-  std::vector<Bounce> bounces_;
   Outcome outcome_ = Outcome::done;
   bool reversed_ = false;
 };
@@ -296,10 +293,10 @@ using namespace hamflow;
 
 extern "C" {
 
-/// Reads a scenario and makes its motion, in the place `number`.
-EMSCRIPTEN_KEEPALIVE const char* hamflow_open(int number, const char* text) {
+/// Reads a scenario and makes its motion, in the place `number`. `sets`: PATH=VALUE, one on each line.
+EMSCRIPTEN_KEEPALIVE const char* hamflow_open(int number, const char* text, const char* sets) {
   return guarded([&]() -> Json {
-    Reading reading = read_scenario_text(text, "scenario", {});
+    Reading reading = read_scenario_text(text, "scenario", lines_of(sets));
     if (!reading.complaints.empty()) return errors_of(reading.complaints);
     auto made = std::make_unique<Motion>(std::move(*reading.scenario));
     if (motions.size() <= static_cast<std::size_t>(number)) motions.resize(static_cast<std::size_t>(number) + 1);
@@ -339,9 +336,6 @@ EMSCRIPTEN_KEEPALIVE const char* hamflow_returned(int number) {
 EMSCRIPTEN_KEEPALIVE const char* hamflow_certificate(int number) {
   return guarded([&] { return motion(number).certificate(); });
 }
-EMSCRIPTEN_KEEPALIVE const char* hamflow_bounces(int number) {
-  return guarded([&] { return motion(number).bounces(); });
-}
 
 // The rows of the last advance (hamflow_show): width() numbers each; and the points of the section, t, q and p.
 EMSCRIPTEN_KEEPALIVE const double* hamflow_rows(int number) { return motion(number).rows().data(); }
@@ -350,21 +344,14 @@ EMSCRIPTEN_KEEPALIVE const double* hamflow_points(int number) { return motion(nu
 EMSCRIPTEN_KEEPALIVE int hamflow_point_count(int number) { return static_cast<int>(motion(number).points().size()); }
 EMSCRIPTEN_KEEPALIVE int hamflow_width(int number) { return static_cast<int>(motion(number).width()); }
 
-/// The names of the methods, each with its purpose and order, and of the problems.
-EMSCRIPTEN_KEEPALIVE const char* hamflow_catalogue() {
+/// The names of all methods, each with its purpose.
+EMSCRIPTEN_KEEPALIVE const char* hamflow_methods(int) {
   return guarded([]() -> Json {
-    Json all_methods = Json::array();
+    Json all = Json::array();
     for (const MethodEntry& each : methods()) {
-      all_methods.push_back({{"name", each.name}, {"purpose", advice({.name = each.name}).purpose}});
+      all.push_back({{"name", each.name}, {"purpose", advice({.name = each.name}).purpose}});
     }
-    Json all_problems = Json::array();
-    for (const ProblemEntry& each : problems()) {
-      Json parameters = Json::array();
-      for (const OptionInfo& option : keys_of(each.info))
-        parameters.push_back({{"name", option.name}, {"meaning", option.meaning}});
-      all_problems.push_back({{"name", each.info.name}, {"formula", each.info.formula}, {"keys", parameters}});
-    }
-    return {{"methods", all_methods}, {"problems", all_problems}};
+    return all;
   });
 }
 

@@ -1,26 +1,15 @@
-// What the page does without, to be small: figures for print, derivatives of steps, and arithmetics beyond double.
-// Stands in for src/figures and files of src/steps.
-#include "engine/erased.hpp"
+// What the page does without, to be small: figures for print and clients that compute forces. Stands in for src/figures
+// and src/socket/force_server.cpp.
 #include "figure_kinds.hpp"
+#include "socket/force_server.hpp"
 
 namespace hamflow {
 
-std::unique_ptr<StepMap> erased_step_map(const ErasedProblem&, const Request&) { return nullptr; }
-
-namespace {
-[[noreturn]] void refuse(const std::string& arithmetic) {
-  throw Error("found arithmetic " + arithmetic +
-              "; the laboratory allows double, compensated and lattice; the command allows all");
-}
-}  // namespace
-template <>
-std::unique_ptr<Simulation> simulate_erased<DoubleDouble>(const ErasedRun<DoubleDouble>&, const Request& request) {
-  refuse(request.arithmetic);
-}
-template <>
-std::unique_ptr<Simulation> simulate_erased<Quad>(const ErasedRun<Quad>&, const Request& request) {
-  refuse(request.arithmetic);
-}
+std::string refused_address(const std::string&) { return "not in the laboratory; allowed in the command"; }
+std::shared_ptr<ForceServer> ForceServer::at(const std::string&) { return nullptr; }
+ForceServer::~ForceServer() = default;
+void ForceServer::evaluate(const std::vector<double>&, const Cell&, double, WireForces&) {}
+void ForceServer::restart() {}
 
 /// No kind is known, and any name is accepted: a scenario of the command keeps its figures.
 std::span<const FigureKindInfo> figure_kinds() { return {}; }

@@ -24,3 +24,8 @@ declare module "worker-source" {
   const source: string;
   export default source;
 }
+
+/// The files *.toml of src/gallery in the order of their names (build.mjs).
+declare module "gallery-files" {
+  export const files: { name: string; text: string }[];
+}

@@ -21,9 +21,17 @@ export interface Facts {
   invariants: { name: string; meaning: string }[];
   walls: { coordinate: number; min: number | null; max: number | null }[];
   particles: { space: number; edges: number[]; radius: number } | null;
-  section: boolean;
+  section: SectionFacts | null;
   observables: { name: string; expression: string }[];
   notes: string[];
+}
+
+export interface SectionFacts {
+  coordinate: number;
+  momentum: boolean;
+  is_plane: boolean; // a coordinate or momentum has the value; else points in time, or of a map or an expression
+  value: number;
+  direction: number;
 }
 
 export interface MotionState {
@@ -53,22 +61,21 @@ export interface Certificate {
   reversal: { proves: string; reason: string } | null;
 }
 
-export interface Catalogue {
-  methods: { name: string; purpose: string }[];
-  problems: { name: string; formula: string; keys: { name: string; meaning: string }[] }[];
+export interface MethodName {
+  name: string;
+  purpose: string; // empty: not recommended first
 }
 
 /// The functions, each with its arguments after the number of the motion, and its answer.
 export interface Calls {
-  open: { args: [text: string]; answer: Facts };
+  open: { args: [text: string, sets: string]; answer: Facts };
   show: { args: [expressions: string]; answer: { width: number } };
   advance: { args: [steps: number, every: number]; answer: MotionState };
   state: { args: []; answer: MotionState };
   reverse: { args: []; answer: MotionState };
   returned: { args: []; answer: Returned };
   certificate: { args: []; answer: Certificate };
-  bounces: { args: []; answer: [t: number, coordinate: number, side: number][] };
-  catalogue: { args: []; answer: Catalogue };
+  methods: { args: []; answer: MethodName[] };
 }
 export type CallName = keyof Calls;
 

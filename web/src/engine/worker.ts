@@ -34,7 +34,7 @@ function answer(module: EngineModule, request: Question): Reply {
     return texts[texts.length - 1]!;
   });
   const call = module[`_hamflow_${request.call}`] as (...args: number[]) => number;
-  const json = module.UTF8ToString(request.call === "catalogue" ? call() : call(request.motion, ...args));
+  const json = module.UTF8ToString(call(request.motion, ...args));
   for (const text of texts) module._free(text);
   const response: Reply = { id: request.id, json, rows: null, points: null };
   const has_rows = request.call === "open" || request.call === "show" || request.call === "advance";

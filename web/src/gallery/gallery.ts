@@ -1,35 +1,33 @@
-// Scenarios to begin with, each with what to look at and a question.
+// Scenarios to begin with: the files of this folder. The comments at the head of a file say what to look at.
+import { files } from "gallery-files";
 
 export interface Entry {
+  name: string; // of the file
   title: string;
   look: string;
   question: string;
-  x: string;
+  x: string; // columns; empty: the usual ones
   y: string;
-  equal: boolean;
+  flags: string[]; // equal, tracks, turns
+  second: string; // a method beside that of the scenario; empty: none
   toml: string;
 }
 
-export const gallery: Entry[] = [
-  {
-    title: "Henon-Heiles",
-    look: "A star in a potential with three exits. At this energy some orbits are regular and some chaotic. The energy error of a symplectic method stays bounded.",
-    question: "What happens to the orbit if the start moves by a thousandth?",
-    x: "x",
-    y: "y",
-    equal: true,
-    toml: `[problem]
-name = "formula"
-coordinates = ["x", "y"]
-hamiltonian = "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3"
-initial = { q = [0, 0.1], p = [0.45, 0.1] }
+export function entry_of(name: string, text: string): Entry {
+  const heads = new Map<string, string>();
+  const rest: string[] = [];
+  for (const line of text.split("\n")) {
+    const found = /^# (title|look|question|view|second): (.*)$/.exec(line);
+    if (found) heads.set(found[1]!, found[2]!);
+    else rest.push(line);
+  }
+  const head = (key: string): string => heads.get(key) ?? "";
+  const [x = "", y = "", ...flags] = head("view").split(/\s*;\s*/);
+  return {
+    name, x, y, flags,
+    title: head("title"), look: head("look"), question: head("question"), second: head("second"),
+    toml: rest.join("\n").trimStart(),
+  };
+}
 
-[method]
-name = "stv4"
-
-[run]
-dt = 0.05
-steps = 20000
-`,
-  },
-];
+export const gallery: Entry[] = files.map((file) => entry_of(file.name, file.text));

@@ -13,11 +13,10 @@ export class Motion {
   constructor(private readonly engine: Engine, private readonly number: number) {}
 
   /// @throws EngineError with the reader's messages; then the motion before goes on
-  async open(toml: string, expressions: string[]): Promise<void> {
-    const opened = await this.engine.call("open", this.number, toml);
-    this.facts = opened.value;
+  async open(toml: string): Promise<void> {
+    this.facts = (await this.engine.call("open", this.number, toml, "")).value;
     this.points = [];
-    await this.show(expressions);
+    await this.show([]);
     this.state = (await this.engine.call("state", this.number)).value;
   }
 

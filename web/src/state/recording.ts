@@ -7,7 +7,7 @@ export class Recording {
   every = 1;
   private skipped = 0;
 
-  constructor(readonly width: number, private readonly most = 40_000) {}
+  constructor(readonly width: number, private readonly most = 20_000) {}
 
   append(rows: Float64Array): void {
     for (let at = 0; at + this.width <= rows.length; at += this.width) {
