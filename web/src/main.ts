@@ -290,9 +290,9 @@ async function certify(): Promise<void> {
     const add = (text: string, bad: boolean): void => {
       items.push(Object.assign(document.createElement("li"), { textContent: `${motion.facts.method}: ${text}`, className: bad ? "bad" : "" }));
     };
-    add(`energy error ${found.drift}. ${found.reason}`, found.drift === "linear");
+    add(`energy error ${found.drift}: ${found.reason}`, found.drift === "linear");
     for (const each of found.invariants) if (each.conserved !== null) add(`${each.name} ${each.conserved ? "conserved" : "not conserved"}`, !each.conserved);
-    if (found.reversal !== null) add(`reversal: ${found.reversal.proves}. ${found.reversal.reason}`, false);
+    if (found.reversal !== null) add(`${found.reversal.proves}: ${found.reversal.reason}`, false);
   }
   element("certificate").replaceChildren(...items);
   certified_at = performance.now();
