@@ -28,6 +28,9 @@ const energy_series = new Series(element("energy"));
 const column_series = new Series(element("series"));
 const section = new SectionView(element("section"), complain);
 
+const in_frame = location.protocol === "about:"; // of a notebook: there is no address to share
+element("share").hidden = in_frame;
+
 const engine = new Engine();
 const all_motions = [new Motion(engine, 0), new Motion(engine, 1)];
 let motions: Motion[] = []; // open: the scenario, and beside it a second method
@@ -112,6 +115,7 @@ async function open(): Promise<void> {
 
 async function show_columns(): Promise<void> {
   for (const motion of motions) await motion.show([x_name.value, y_name.value]);
+  if (in_frame) return;
   history.replaceState(null, "", await fragment_of({ toml: editor.value, x: x_name.value, y: y_name.value, method: second.value }));
 }
 
@@ -442,7 +446,7 @@ function show_recorded(given: Inlined): void {
   marked = rows.count - 1;
   element("columns").replaceChildren(...given.columns.map((name) => Object.assign(document.createElement("option"), { value: name })));
   element("recorded").hidden = false;
-  element("recorded").textContent = `${given.name}: ${rows.count} ${given.kind === "sweep" ? "members" : "rows"}${given.note ? `, ${given.note}` : ""}. Start again integrates the scenario here.`;
+  element("recorded").textContent = `${given.name}: ${rows.count} ${given.kind === "sweep" ? "members" : "rows"}${given.note ? `, ${given.note}` : ""}.${given.toml === "" ? "" : " Start again integrates the scenario here."}`;
   draw();
 }
 
