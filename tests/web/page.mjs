@@ -142,9 +142,12 @@ const tests = {
     const section = page.locator("#section");
     const box = await section.boundingBox();
     const before = Date.now();
-    for (let i = 0; i < 20; ++i) await section.click({ position: { x: box.width * (0.3 + 0.02 * i), y: box.height * 0.45 } });
-    await page.waitForFunction(() => document.getElementById("section-count").textContent === "40000 points", null, { timeout: 120_000 });
-    console.log(`  20 starts with 2000 points each: ${((Date.now() - before) / 1000).toFixed(1)} s`);
+    for (let i = 0; i < 8; ++i) await section.click({ position: { x: box.width * (0.45 + 0.025 * i), y: box.height * 0.45 } });
+    const all = () => page.waitForFunction(() => document.getElementById("section-count").textContent === "16000 points", null, { timeout: 120_000 });
+    await all().catch(async (error) => {
+      throw new Error(`${await text(page, "section-count")}; ${await text(page, "complaints")}; ${error}`);
+    });
+    console.log(`  8 starts with 2000 points each: ${((Date.now() - before) / 1000).toFixed(1)} s`);
     await picture(page, "section");
     const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("#section-csv").click()]);
     expect(readFileSync(await saved.path(), "utf8").startsWith("start,y,p_y\n"), "section.csv");

@@ -259,7 +259,6 @@ function draw(): void {
   const failed = motions.find((motion) => motion.state.failed);
   element("status").textContent = failed ? `${failed.facts.method}: ${failed.state.message}` : `step ${state.step} of ${last_step()}${turned_at >= 0 ? ", back" : ""}`;
   element("status").className = failed ? "bad" : "";
-  element("section-count").textContent = `${section.count} points`;
   numbers([
     ...motions.flatMap((motion): [string, string][] => [
       ["method", motion.facts.method],
@@ -397,7 +396,8 @@ element("section-csv").onclick = () => {
   save_text("section.csv", csv_of(["start", section.frame().x_name, section.frame().y_name], rows), "text/csv");
 };
 setInterval(() => {
-  if (section.is_busy) element("section-count").textContent = `${section.count} points`;
+  const text = `${section.count} points`;
+  if (element("section-count").textContent !== text) element("section-count").textContent = text;
 }, 200);
 
 const chooser = element<HTMLSelectElement>("gallery");

@@ -63,6 +63,7 @@ export class SectionView {
   ) {
     canvas.addEventListener("click", (event) => {
       const [x, y] = this.place(event);
+      this.range ??= this.shown?.range ?? null; // the axes stay under the pointer
       this.add(x, y);
     });
     canvas.addEventListener("wheel", (event) => {
@@ -91,10 +92,6 @@ export class SectionView {
   get count(): number {
     return [this.own, ...this.orbits].reduce((sum, orbit) => sum + orbit.points.length / 2, 0);
   }
-  get is_busy(): boolean {
-    return this.waiting.length > 0 || this.workers.some((each) => each.busy);
-  }
-
   /// Takes the points that a motion has found since the last call.
   take(points: number[]): void {
     if (this.axes === null || points.length === this.own_taken) return;
@@ -154,6 +151,7 @@ export class SectionView {
           const answer = await worker.engine.call("advance", 0, steps, steps);
           if (generation !== this.generation) break;
           this.append(next.orbit, answer.points);
+          next.orbit.points.length = Math.min(next.orbit.points.length, 2 * points_of_a_start);
           this.draw();
           if (answer.value.failed) throw new Error(answer.value.message);
           if (performance.now() - before < 40) steps *= 2;
