@@ -100,7 +100,7 @@ async function open(): Promise<void> {
     element("certificate").replaceChildren();
     element("returned").textContent = "";
     const { q, p } = first.facts;
-    const names = [...first.names(), ...first.facts.observables.map((each) => each.expression)];
+    const names = [...first.names(), ...first.facts.observables.map((each) => each.name)];
     if (x_name.value === "") x_name.value = q[0]!;
     if (y_name.value === "") y_name.value = q[1] ?? p[0]!;
     element("columns").replaceChildren(...names.map((name) => Object.assign(document.createElement("option"), { value: name })));
@@ -200,9 +200,14 @@ function curves_of_bodies(motion: Motion, color: string): Curve[] {
   }));
 }
 
+/// An expression may be longer than its axis.
+function label_of(column: string): string {
+  return column.length <= 40 ? column : `${column.slice(0, 37)}...`;
+}
+
 function orbit_picture(): { curves: Curve[]; frame: Frame } {
   const colors = [color_of("--first"), color_of("--second")];
-  const frame: Frame = { x_name: x_name.value, y_name: y_name.value, equal: equal.checked, walls: [], range: null };
+  const frame: Frame = { x_name: label_of(x_name.value), y_name: label_of(y_name.value), equal: equal.checked, walls: [], range: null };
   if (recorded !== null) return { curves: curves_of(recorded.rows, recorded.columns, colors[0]!, recorded.given.kind === "run"), frame };
   const first = motions[0]!;
   if (tracks.checked && body_columns().length > 0) {
@@ -241,7 +246,7 @@ function draw(): void {
   element("play").textContent = playing ? "Pause" : "Play";
   for (const id of ["step", "reverse"]) element<HTMLButtonElement>(id).disabled = recorded !== null;
   element<HTMLButtonElement>("play").disabled = false;
-  element("series-title").textContent = `${y_name.value} against ${recorded?.columns[0] ?? "t"}`;
+  element("series-title").textContent = `${label_of(y_name.value)} against ${recorded?.columns[0] ?? "t"}`;
   if (recorded !== null) {
     const at = (name: string): number => recorded!.columns.indexOf(name);
     column_series.draw(times, [rows.column(Math.max(at(y_name.value), 0))]);
@@ -295,7 +300,7 @@ async function certify(): Promise<void> {
     };
     add(`energy error ${found.drift}: ${found.reason}`, found.drift === "linear");
     for (const each of found.invariants) if (each.conserved !== null) add(`${each.name} ${each.conserved ? "conserved" : "not conserved"}`, !each.conserved);
-    if (found.reversal !== null) add(`${found.reversal.proves}: ${found.reversal.reason}`, false);
+    if (found.reversal !== null) add(`${found.reversal.proves === "nothing" ? "reversal inconclusive" : found.reversal.proves}: ${found.reversal.reason}`, false);
   }
   element("certificate").replaceChildren(...items);
   certified_at = performance.now();

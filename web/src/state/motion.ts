@@ -21,9 +21,11 @@ export class Motion {
   }
 
   /// Adds columns to the rows, and begins a new recording.
-  async show(expressions: string[]): Promise<void> {
-    const wanted = expressions.filter((each) => !this.names().includes(each));
-    const shown = await this.engine.call("show", this.number, wanted.join("\n"));
+  /// @param columns names of observables, or expressions; others are there already
+  async show(columns: string[]): Promise<void> {
+    const wanted = columns.filter((each) => each !== "" && !this.names().includes(each));
+    const expressions = wanted.map((each) => this.facts.observables.find(({ name }) => name === each)?.expression ?? each);
+    const shown = await this.engine.call("show", this.number, expressions.join("\n"));
     this.expressions = wanted;
     this.recording = new Recording(shown.value.width);
     this.recording.append(shown.rows);
