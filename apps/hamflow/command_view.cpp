@@ -26,7 +26,7 @@ namespace hamflow::app {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* place = "<!--inlined-->";  // in laboratory.html, where the data go
+constexpr const char* place = "<!--inlined-->";                    // in laboratory.html, where the data go
 constexpr std::size_t most_numbers = 15'000'000 / sizeof(double);  // 20 MB as base64
 
 /// Reads the laboratory that is installed with this command, or built beside it.
@@ -79,7 +79,8 @@ nlohmann::json inlined(const char* kind, const std::string& name, const std::str
     for (const std::vector<double>& column : all.columns) kept.push_back(column[row]);
   }
   const std::string note = every == 1 ? "" : "one of every " + std::to_string(every) + " is in this file";
-  return {{"kind", kind}, {"name", name}, {"toml", toml}, {"columns", all.names}, {"rows", base64(kept)}, {"note", note}};
+  return {{"kind", kind},         {"name", name},         {"toml", toml},
+          {"columns", all.names}, {"rows", base64(kept)}, {"note", note}};
 }
 
 nlohmann::json inlined_run(const fs::path& file, const std::string& name) {
@@ -161,7 +162,8 @@ int view_command(const ViewOptions& options) {
     std::string file = options.file;
     if (file.empty()) {
       const fs::path input = options.input;
-      file = input.empty() ? "laboratory.html" : (input.has_filename() ? input : input.parent_path()).stem().string() + ".html";
+      file = input.empty() ? "laboratory.html"
+                           : (input.has_filename() ? input : input.parent_path()).stem().string() + ".html";
     }
     require_folder_of(file);
     if (!options.input.empty()) {

@@ -101,9 +101,9 @@ int main(int argc, char** argv) {
   plot_command->callback([&] { status = hamflow::app::plot_command(plot); });
 
   ViewOptions view;
-  CLI::App* view_command = add(
-      app, "view", "Open the laboratory, a page in which the integrators run, with a run, a sweep or a scenario",
-      "  hamflow view\n  hamflow view kepler.run\n  hamflow view kepler.toml -o kepler.html --no-browser\n");
+  CLI::App* view_command =
+      add(app, "view", "Open the laboratory, a page in which the integrators run, with a run, a sweep or a scenario",
+          "  hamflow view\n  hamflow view kepler.run\n  hamflow view kepler.toml -o kepler.html --no-browser\n");
   view_command->add_option("input", view.input, "the folder of a run or a sweep, run.h5, sweep.h5, or a scenario")
       ->type_name("RUN|SWEEP|SCENARIO");
   view_command->add_option("-o,--output", view.file, "the file to write [NAME.html; without an input laboratory.html]")

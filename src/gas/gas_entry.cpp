@@ -402,8 +402,8 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   };
   e.step_map = [shape](const Request& request, std::size_t size) -> std::unique_ptr<StepMap> {
     if (!accepts(shape, request.method)) return nullptr;
-    return step_map_of(
-        [&]<class R>() { return gas_functions<R>(shape, Parameters<R>(request.parameters), size); }, request);
+    return step_map_of([&]<class R>() { return gas_functions<R>(shape, Parameters<R>(request.parameters), size); },
+                       request);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };

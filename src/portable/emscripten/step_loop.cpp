@@ -45,7 +45,8 @@ class Encoder {
   Bytes module() {
     Bytes out{0, 'a', 's', 'm', 1, 0, 0, 0};
     constexpr unsigned char i32 = 0x7f, f64 = 0x7c, of_function = 0x60;
-    section(out, 1, {3, of_function, 2, i32, i32, 1, i32, of_function, 1, f64, 1, f64, of_function, 2, f64, f64, 1, f64});
+    section(out, 1,
+            {3, of_function, 2, i32, i32, 1, i32, of_function, 1, f64, 1, f64, of_function, 2, f64, f64, 1, f64});
     section(out, 2, {2, 1, 'e', 1, 'm', 2, 0, 0, 1, 'e', 1, 't', 1, 0x70, 0, 0});
     section(out, 3, {1, 0});
     section(out, 7, {1, 1, 'f', 0, 0});
