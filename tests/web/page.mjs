@@ -1,7 +1,8 @@
 // The laboratory in Chromium: what a visitor does, and what must come of it.
 //   node page.mjs FOLDER [PICTURES]      FOLDER: build/web; PICTURES: a folder for screenshots
-import { existsSync, mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
@@ -217,6 +218,28 @@ const tests = {
       const { violations } = await page.evaluate(() => globalThis.axe.run());
       const serious = violations.filter((each) => each.impact === "serious" || each.impact === "critical");
       expect(serious.length === 0, `${colorScheme}: ${serious.map((each) => `${each.id} ${each.nodes.map((node) => node.target).join(", ")}`).join("; ")}`);
+    }
+  },
+
+  async "the samples of a run and the members of a sweep are shown"() {
+    const rows = Array.from({ length: 101 }, (_, i) => [i / 10, Math.cos(i / 10), Math.sin(i / 10), 0]);
+    const encoded = Buffer.from(new Float64Array(rows.flat()).buffer).toString("base64");
+    for (const kind of ["run", "sweep"]) {
+      const data = { kind, name: `circle.${kind}`, toml: lattice, columns: ["t", "x", "y", "energy error"], rows: encoded, note: "" };
+      const given = join(mkdtempSync(join(tmpdir(), "hamflow-page-")), "page.html");
+      const script = `<script type="application/json" id="inlined">${JSON.stringify(data)}</script>`;
+      writeFileSync(given, readFileSync(file, "utf8").replace("<!--inlined-->", () => script));
+      const page = await opened({}, pathToFileURL(given).href);
+      expect((await text(page, "recorded")).startsWith(`circle.${kind}: 101 ${kind === "run" ? "rows" : "members"}`), "what is shown");
+      expect((await text(page, "facts")).startsWith("t10x-0.8391"), `the last row: ${await text(page, "facts")}`);
+      await page.locator("#scrub").fill("0");
+      expect((await text(page, "facts")).startsWith("t0x1y0"), "the first row");
+      await picture(page, kind);
+      await page.locator("#integrate").click();
+      await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of 4000"));
+      expect(await page.locator("#recorded").isHidden(), "the scenario is integrated instead");
+      expect(page.errors.length === 0, `no errors: ${page.errors}`);
+      rmSync(dirname(given), { recursive: true });
     }
   },
 

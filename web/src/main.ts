@@ -89,6 +89,7 @@ async function open(): Promise<void> {
     const [first, other] = all_motions as [Motion, Motion];
     await first.open(editor.value);
     recorded = null;
+    element("recorded").hidden = true;
     motions = [first];
     if (second.value !== "") {
       await other.open(with_method(editor.value, second.value));
