@@ -131,6 +131,7 @@ const tests = {
     await typed(page, lattice.replace('arithmetic = "lattice"\n', ""));
     await page.locator("#second").selectOption("rk4");
     await page.waitForFunction(() => (document.getElementById("facts").textContent.match(/method/g) ?? []).length === 2);
+    await set_speed(page, 5);
     await page.locator("#play").click();
     await ended(page);
     const methods = await page.locator("#facts tr").allTextContents();

@@ -248,6 +248,7 @@ function draw(): void {
   for (const id of ["step", "reverse"]) element<HTMLButtonElement>(id).disabled = recorded !== null;
   element<HTMLButtonElement>("play").disabled = false;
   element("series-title").textContent = `${label_of(y_name.value)} against ${recorded?.columns[0] ?? "t"}`;
+  element("energy-title").textContent = recorded === null ? "Energy error, relative to its scale" : "Energy error, H - H(0)";
   if (recorded !== null) {
     const at = (name: string): number => recorded!.columns.indexOf(name);
     column_series.draw(times, [rows.column(Math.max(at(y_name.value), 0))]);
