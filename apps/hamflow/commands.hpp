@@ -54,6 +54,13 @@ struct PlotOptions {
 };
 int plot_command(const PlotOptions& options);
 
+struct ViewOptions {
+  std::string input;    // a run, a sweep or a scenario; empty: the laboratory alone
+  std::string file;     // empty: NAME.html
+  bool browser = true;  // open it
+};
+int view_command(const ViewOptions& options);
+
 struct VerifyOptions {
   std::vector<std::string> methods;  // as on the command line, e.g. "stv4", "cg(1,5)"
   bool all = false;                  // measure every method of the catalogue

@@ -101,6 +101,17 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   plot_command->callback([&] { status = hamflow::app::plot_command(plot); });
 
+  ViewOptions view;
+  CLI::App* view_command =
+      add(app, "view", "Open the laboratory, a page in which the integrators run, with a run, a sweep or a scenario",
+          "  hamflow view\n  hamflow view kepler.run\n  hamflow view kepler.toml -o kepler.html --no-browser\n");
+  view_command->add_option("input", view.input, "the folder of a run or a sweep, run.h5, sweep.h5, or a scenario")
+      ->type_name("RUN|SWEEP|SCENARIO");
+  view_command->add_option("-o,--output", view.file, "the file to write [NAME.html; without an input laboratory.html]")
+      ->type_name("FILE");
+  view_command->add_flag("!--no-browser", view.browser, "write the file without opening it");
+  view_command->callback([&] { status = hamflow::app::view_command(view); });
+
   SweepCommandOptions sweep;
   CLI::App* sweep_command = add(
       app, "sweep", "Run a scenario for many values of some keys, on all cores; the table has one row per run",

@@ -31,15 +31,16 @@ from ._simulation import Simulation, Trajectory
 from ._sweep import Sweep, propagate, sweep
 from ._trace import acos, asin, atan, atan2, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
 from ._verify import Verification, verify
+from ._view import View, view
 
 __version__: str = _core.version
 
 __all__ = ["Compare", "Error", "FileError", "LogCertificate", "Problem", "Rejection", "Reversal", "Run", "Scenario",
-           "Shown", "Simulation", "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "Verification",
+           "Shown", "Simulation", "States", "StepCertificate", "StepFailed", "Sweep", "Trajectory", "Verification", "View",
            "acos", "asin", "atan", "atan2", "certify", "certify_step", "cite", "compare", "convert", "cos", "cosh",
            "elements", "exp", "log", "methods", "open", "problems", "propagate", "reverse", "run", "show", "sin", "sinh", "sqrt", "state",
            "sweep",
-           "tan", "tanh", "verify"]
+           "tan", "tanh", "verify", "view"]
 
 
 class Infos(list):  # type: ignore[type-arg]

@@ -163,7 +163,8 @@ std::vector<ReplacedOption> replaced_options(const MethodSpec& spec, std::size_t
 
 std::size_t unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
   // The method of reference solutions is not in the list.
-  const bool is_listed = std::ranges::any_of(methods(), [&](const MethodEntry& m) { return m.name == spec.name; });
+  const bool is_listed =
+      std::any_of(methods().begin(), methods().end(), [&](const MethodEntry& m) { return m.name == spec.name; });
   return is_listed ? unknowns_and_options(spec, coordinates).count : 0;
 }
 

@@ -94,6 +94,13 @@ struct ErasedEntry {
       simulate_member{};
 };
 
+/// The laboratory (web/engine) has no arithmetic beyond double and no StepMap, so that it is small.
+#ifdef HAMFLOW_DOUBLE_ONLY
+inline constexpr bool has_more_digits = false;
+#else
+inline constexpr bool has_more_digits = true;
+#endif
+
 /// Calls action.template operator()<R>() with the number type R of an arithmetic beyond double.
 template <class Action>
 auto in_arithmetic(const std::string& arithmetic, const Action& action) {
@@ -104,8 +111,23 @@ auto in_arithmetic(const std::string& arithmetic, const Action& action) {
       return action.template operator()<Mp>();
     }
   }
+  if constexpr (!has_more_digits) {
+    throw Error("found arithmetic " + arithmetic + "; the laboratory allows double, compensated and lattice");
+  }
   if (arithmetic != "double-double") throw Error("found '" + arithmetic + "'; allowed more digits than double has");
   return action.template operator()<DoubleDouble>();
+}
+
+/// The StepMap of the problem whose functions in the number type R are functions.template operator()<R>().
+template <class Functions>
+std::unique_ptr<StepMap> step_map_of(const Functions& functions, const Request& request) {
+  if constexpr (!has_more_digits) {
+    return nullptr;
+  } else {
+    return erased_step_map({functions.template operator()<double>(), functions.template operator()<long double>(),
+                            functions.template operator()<Quad>()},
+                           request);
+  }
 }
 
 /// The simulation that action.template operator()<R>() makes in the number type of any arithmetic.

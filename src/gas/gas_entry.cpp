@@ -402,11 +402,8 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   };
   e.step_map = [shape](const Request& request, std::size_t size) -> std::unique_ptr<StepMap> {
     if (!accepts(shape, request.method)) return nullptr;
-    const Texts& parameters = request.parameters;
-    return erased_step_map({gas_functions<double>(shape, Parameters<double>(parameters), size),
-                            gas_functions<long double>(shape, Parameters<long double>(parameters), size),
-                            gas_functions<Quad>(shape, Parameters<Quad>(parameters), size)},
-                           request);
+    return step_map_of([&]<class R>() { return gas_functions<R>(shape, Parameters<R>(request.parameters), size); },
+                       request);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };

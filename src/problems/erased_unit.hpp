@@ -98,11 +98,8 @@ class ErasedUnit : ProblemStart<Family> {
   }
 
   static std::unique_ptr<StepMap> step_map(const Request& request, std::size_t size) {
-    const auto in = [&]<class R>() {
-      return functions_of<R>(In::template make<R>(Parameters<R>(request.parameters), size));
-    };
-    return erased_step_map(
-        {in.template operator()<double>(), in.template operator()<long double>(), in.template operator()<Quad>()},
+    return step_map_of(
+        [&]<class R>() { return functions_of<R>(In::template make<R>(Parameters<R>(request.parameters), size)); },
         request);
   }
 };

@@ -277,10 +277,7 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
     if (model.structure().time) {
       throw Error("found an H that depends on t; single steps can be measured only for an H without t");
     }
-    const Texts& parameters = request.parameters;
-    return erased_step_map({functions_of<double>(model, parameters), functions_of<long double>(model, parameters),
-                            functions_of<Quad>(model, parameters)},
-                           request);
+    return step_map_of([&]<class R>() { return functions_of<R>(model, request.parameters); }, request);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [field](const Texts& parameters, const StartSpec& spec) {

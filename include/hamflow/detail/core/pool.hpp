@@ -8,9 +8,12 @@
 
 namespace hamflow {
 
-/// Blocks of 2^k bytes, k = 4 .. 47. A block may be returned on another thread than the one that requested it.
+/// Blocks of 2^k bytes, k = 4 .. 47, or .. 31 where addresses have 32 bits. A block may be returned on another thread
+/// than the one that requested it.
 class Pool {
  public:
+  static constexpr std::size_t most_bytes = std::size_t{1} << (sizeof(std::size_t) > 4 ? 47 : 31);
+
   static void* take(std::size_t bytes) {
     const std::size_t k = exponent(bytes);
     Block* const block = free_[k];
@@ -73,7 +76,7 @@ struct PoolAllocator {
   PoolAllocator(const PoolAllocator<U>&) {}  // NOLINT: allocators for different types convert
 
   T* allocate(std::size_t count) {
-    if (count > (std::size_t{1} << 47) / sizeof(T)) throw std::bad_array_new_length();
+    if (count > Pool::most_bytes / sizeof(T)) throw std::bad_array_new_length();
     return static_cast<T*>(Pool::take(count * sizeof(T)));
   }
   void deallocate(T* memory, std::size_t count) { Pool::give(memory, count * sizeof(T)); }

@@ -38,7 +38,7 @@ class ThreadTeam {
   ~ThreadTeam() { dismiss(); }
 
   std::size_t size() const { return size_; }
-  static constexpr std::size_t most_blocks = (std::size_t{1} << 32) - 1;
+  static constexpr std::size_t most_blocks = 0xffffffff;
 
   /// Calls work(worker, call, block) for each block, on any worker, in any order, and returns when all are done. It
   /// does not wait for workers that wake up late and find no work. Only one thread may call it at a time; `work` must

@@ -1,0 +1,87 @@
+// The engine of the laboratory and the command compute the same bits, for scenarios of + - * / and sqrt.
+//   node bits.mjs HAMFLOW FOLDER      FOLDER: build/web
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { load_engine } from "./engine.mjs";
+
+const [hamflow, folder] = process.argv.slice(2);
+if (!existsSync(join(folder, "engine.wasm"))) {
+  console.log("skipped: there is no page; ./dev web builds it");
+  process.exit(77);
+}
+
+function formula(coordinates, hamiltonian, start, more = "") {
+  return `[problem]\nname = "formula"\ncoordinates = ${JSON.stringify(coordinates)}\nhamiltonian = "${hamiltonian}"\n${more}\ninitial = { ${start} }\n`;
+}
+const henon = formula(["x", "y"], "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3", "q = [0, 0.1], p = [0.45, 0.1]");
+const kepler = formula(["x", "y"], "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)", "q = [0.4, 0], p = [0, 2]");
+const well = formula(["q"], "p^2/2 - q^2/2 + q^4/4", "q = [1.3], p = [0.1]");
+const rotating = formula(["x", "y"], "(p_x^2 + p_y^2)/2 + y*p_x - x*p_y - 1/sqrt(x^2 + y^2 + 0.1)", "q = [1, 0], p = [0.1, 1.1]");
+const box = formula(["x", "y"], "(p_x^2 + p_y^2)/2 + 2/(1 + 20*(x^2 + y^2))", "q = [0.8, 0.3], p = [-0.7, 0.6]",
+  'walls = [{ coordinate = "x", min = -1, max = 1 }, { coordinate = "y", min = -1, max = 1 }]');
+const blocks = formula(["x", "d"], "(p_x - p_d)^2/2 + p_d^2/(2*M)", "q = [1, 0.5], p = [-100, -100]",
+  'parameters = { M = 100 }\nwalls = [{ coordinate = "x", min = 0 }, { coordinate = "d", min = 0 }]');
+const sphere = formula(["x", "y", "z"], "(p_x^2 + p_y^2 + p_z^2)/2 + z", "q = [0.6, 0, -0.8], v = [0.4, 0.9, 0.3]", 'constraints = ["x^2 + y^2 + z^2 - 1"]');
+const energy_start = formula(["x", "y"], "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3", 'q = [0, 0.1], p = ["+", 0.1], energy = 0.125');
+const bodies = `[problem]\nname = "n-body"\nmasses = [1, 1, 1]
+initial = { q = [0.97000436, -0.24308753, -0.97000436, 0.24308753, 0, 0], p = [0.466203685, 0.43236573, 0.466203685, 0.43236573, -0.93240737, -0.86473146] }\n`;
+const gas = `[problem]\nname = "gas"\nparticles_per_side = 5\nstart = "corner"\npair = "lennard-jones"\nscale = "per-side"\ncontainer = { kind = "circle", radius = 1.5, exponent = 1 }\n`;
+
+/// name, problem, method, run
+const scenarios = [
+  ["henon verlet", henon, "verlet", "dt = 0.05"],
+  ["henon stv4", henon, "stv4", "dt = 0.05"],
+  ["henon euler-b", henon, "euler-b", "dt = 0.02"],
+  ["henon yoshida6", henon, "yoshida6", "dt = 0.05"],
+  ["henon rk4", henon, "rk4", "dt = 0.05"],
+  ["henon dop853", henon, "dop853", "dt = 0.1"],
+  ["henon taylor", henon, "taylor", "dt = 0.1"],
+  ["henon cg", henon, "cg", "dt = 0.1"],
+  ["henon discrete-gradient", henon, "discrete-gradient", "dt = 0.1"],
+  ["henon stv4 compensated", henon, "stv4", 'dt = 0.05\narithmetic = "compensated"'],
+  ["henon stv4 lattice", henon, "stv4", 'dt = 0.05\narithmetic = "lattice"'],
+  ["henon verlet lattice", henon, "verlet", 'dt = 0.05\narithmetic = "lattice"'],
+  ["henon by energy", energy_start, "stv4", "dt = 0.05"],
+  ["kepler verlet", kepler, "verlet", "dt = 0.01"],
+  ["kepler stv4", kepler, "stv4", "dt = 0.01"],
+  ["kepler rk4", kepler, "rk4", "dt = 0.01"],
+  ["kepler cg", kepler, "cg", "dt = 0.02"],
+  ["kepler stv4 compensated", kepler, "stv4", 'dt = 0.01\narithmetic = "compensated"'],
+  ["kepler verlet lattice", kepler, "verlet", 'dt = 0.01\narithmetic = "lattice"'],
+  ["well verlet", well, "verlet", "dt = 0.1"],
+  ["well stv4", well, "stv4", "dt = 0.1"],
+  ["well cg", well, "cg", "dt = 0.1"],
+  ["rotating cg", rotating, "cg", "dt = 0.05"],
+  ["rotating rk4", rotating, "rk4", "dt = 0.02"],
+  ["box with walls", box, "stv4", "dt = 0.02"],
+  ["blocks with walls", blocks, "verlet", "dt = 0.001"],
+  ["sphere rattle4", sphere, "rattle4", "dt = 0.05"],
+  ["three bodies stv4", bodies, "stv4", "dt = 0.01"],
+  ["three bodies dop853", bodies, "dop853", "dt = 0.02"],
+  ["gas verlet", gas, "verlet", "dt = 0.001"],
+  ["gas stv4 lattice", gas, "stv4", 'dt = 0.001\narithmetic = "lattice"'],
+];
+const steps = 1000;
+
+const engine = await load_engine(folder);
+const work = mkdtempSync(join(tmpdir(), "hamflow-bits-"));
+const wrong = [];
+for (const [name, problem, method, run] of scenarios) {
+  const toml = `${problem}\n[method]\nname = "${method}"\n\n[run]\n${run}\nsteps = ${steps}\n`;
+  const file = join(work, "scenario.toml");
+  writeFileSync(file, toml);
+  const command = JSON.parse(execFileSync(hamflow, ["run", file, "--out", "none", "--quiet", "--json"], { encoding: "utf8" }));
+  const facts = engine.call("open", toml, "");
+  const page = facts.errors ? null : engine.call("advance", steps, steps);
+  // The texts are the shortest that read back as the same double, so that equal numbers are equal bits.
+  const same = page !== null && JSON.stringify([page.final.q, page.final.p]) === JSON.stringify([command.final.q, command.final.p]);
+  if (!same) wrong.push(`${name}: the page has ${JSON.stringify(page?.final ?? facts)}; the command ${JSON.stringify(command.final)}`);
+}
+rmSync(work, { recursive: true });
+console.log(`${scenarios.length - wrong.length} of ${scenarios.length} scenarios have equal bits`);
+if (wrong.length > 0) {
+  console.error(wrong.join("\n"));
+  process.exit(1);
+}

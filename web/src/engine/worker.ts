@@ -1,0 +1,59 @@
+// The worker: one instance of the engine. It gets the compiled module first, then requests, and answers each of them.
+import hamflowEngine, { type EngineModule } from "hamflow-engine";
+import type { Question, Reply } from "./protocol";
+
+const scope = self as unknown as { onmessage: (event: MessageEvent) => void; postMessage(message: unknown, transfer: Transferable[]): void };
+let engine: Promise<EngineModule>;
+
+function start(module: WebAssembly.Module): Promise<EngineModule> {
+  return hamflowEngine({
+    instantiateWasm(imports, done) {
+      void WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
+      return {};
+    },
+  });
+}
+
+/// Puts a text into the memory of the engine.
+function stored(module: EngineModule, text: string): number {
+  const bytes = module.lengthBytesUTF8(text) + 1;
+  const address = module._malloc(bytes);
+  module.stringToUTF8(text, address, bytes);
+  return address;
+}
+
+function numbers(module: EngineModule, address: number, count: number): Float64Array {
+  return module.HEAPF64.slice(address / 8, address / 8 + count);
+}
+
+function answer(module: EngineModule, request: Question): Reply {
+  const texts: number[] = [];
+  const args = request.args.map((arg) => {
+    if (typeof arg === "number") return arg;
+    texts.push(stored(module, arg));
+    return texts[texts.length - 1]!;
+  });
+  const call = module[`_hamflow_${request.call}`] as (...args: number[]) => number;
+  const json = module.UTF8ToString(call(request.motion, ...args));
+  for (const text of texts) module._free(text);
+  const response: Reply = { id: request.id, json, rows: null, points: null };
+  const has_rows = request.call === "open" || request.call === "show" || request.call === "advance";
+  if (has_rows && !json.startsWith('{"errors"')) {
+    response.rows = numbers(module, module._hamflow_rows(request.motion), module._hamflow_count(request.motion));
+    response.points = numbers(module, module._hamflow_points(request.motion), module._hamflow_point_count(request.motion));
+  }
+  return response;
+}
+
+scope.onmessage = (event) => {
+  if (event.data instanceof WebAssembly.Module) {
+    engine = start(event.data);
+    return;
+  }
+  const request = event.data as Question;
+  void engine.then((module) => {
+    const response = answer(module, request);
+    const transfer = [response.rows, response.points].filter((all) => all !== null).map((all) => all.buffer as ArrayBuffer);
+    scope.postMessage(response, transfer);
+  });
+};

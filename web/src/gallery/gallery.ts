@@ -1,0 +1,33 @@
+// Scenarios to begin with: the files of this folder. The comments at the head of a file say what to look at.
+import { files } from "gallery-files";
+
+export interface Entry {
+  name: string; // of the file
+  title: string;
+  look: string;
+  question: string;
+  x: string; // columns; empty: the usual ones
+  y: string;
+  flags: string[]; // equal, tracks, turns
+  second: string; // a method beside that of the scenario; empty: none
+  toml: string;
+}
+
+export function entry_of(name: string, text: string): Entry {
+  const heads = new Map<string, string>();
+  const rest: string[] = [];
+  for (const line of text.split("\n")) {
+    const found = /^# (title|look|question|view|second): (.*)$/.exec(line);
+    if (found) heads.set(found[1]!, found[2]!);
+    else rest.push(line);
+  }
+  const head = (key: string): string => heads.get(key) ?? "";
+  const [x = "", y = "", ...flags] = head("view").split(/\s*;\s*/);
+  return {
+    name, x, y, flags,
+    title: head("title"), look: head("look"), question: head("question"), second: head("second"),
+    toml: rest.join("\n").trimStart(),
+  };
+}
+
+export const gallery: Entry[] = files.map((file) => entry_of(file.name, file.text));
