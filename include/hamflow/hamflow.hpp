@@ -25,6 +25,7 @@
 #include "hamflow/core/table.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/core/version.hpp"
 #include "hamflow/figures/axis.hpp"
 #include "hamflow/figures/curves.hpp"
 #include "hamflow/figures/page.hpp"
