@@ -14,8 +14,8 @@ FOLDER = WORK / "packages"
 COMPILER = os.environ["COMPILER"]
 VERSION = re.search(r'HAMFLOW_VERSION "(.*)"', (ROOT / "include/hamflow/core/version.hpp").read_text())[1]
 MAJOR, MINOR, PATCH = map(int, VERSION.split("."))
-PROGRAM = """#include "hamflow/hamflow.hpp"
-int main() { return hamflow::find_method("verlet") == nullptr; }
+PROGRAM = """#include "hamflow/run/catalog.hpp"
+int main() { return hamflow::find_method("verlet").name != "verlet"; }
 """
 
 
@@ -91,7 +91,7 @@ class FindPackage(unittest.TestCase):
 
 class AddSubdirectory(unittest.TestCase):
     def test_names_are_those_of_the_package(self):
-        """The library is not compiled once more: the project is configured, and a program that includes every header compiled."""
+        """The library is not compiled once more: the project is configured, and a program compiled."""
         text = (f"add_subdirectory({ROOT} hamflow EXCLUDE_FROM_ALL)\nadd_executable(outside outside.cpp)\n"
                 "target_link_libraries(outside hamflow::hamflow)\n"
                 "foreach(part hamflow core ensemble verify figures workflow)\n"
