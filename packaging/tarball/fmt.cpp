@@ -1,4 +1,5 @@
-// The library of fmt, which Debian has as a shared library only: its definitions, and the templates that its headers declare extern.
+// The library of fmt, which Debian has as a shared library only: its definitions, and the templates that its headers
+// declare extern.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE
