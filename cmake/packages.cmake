@@ -75,18 +75,20 @@ set(this "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(drawing "gnuplot-nox | gnuplot-qt | gnuplot-x11, fonts-dejavu-core")
 
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "structure-preserving integration of Hamiltonian systems
- hamflow integrates Hamilton's equations over 10^6 to 10^10 steps with symplectic,
- energy-conserving and reversible methods. Every run has a certificate that judges
- its energy error, its conserved quantities and its reversal.
- .
- This package has the command, its manual page and scenarios to start from.")
+hamflow integrates Hamilton's equations over 10^6 to 10^10 steps with
+symplectic, energy-conserving and reversible methods. Every run has a
+certificate that judges its energy error, its conserved quantities and its
+reversal.
+
+This package has the command, its manual page and scenarios to start from.")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS ${drawing})
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "hamflow-doc, python3-hamflow")
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "C++ library for Hamiltonian systems - development files
- Headers, static libraries and the CMake package of hamflow, which integrates
- Hamilton's equations with symplectic, energy-conserving and reversible methods.")
+Headers, static libraries and the CMake package of hamflow, which
+integrates Hamilton's equations with symplectic, energy-conserving and
+reversible methods.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libasmjit-dev, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libqd-dev, libtomlplusplus-dev")
@@ -94,9 +96,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "cmake (>= 3.25), g++ (>= 4:12)"
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "${drawing}, hamflow-doc")
 
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "structure-preserving integration of Hamiltonian systems - Python module
- The module hamflow integrates Hamilton's equations with symplectic, energy-conserving
- and reversible methods. Hamiltonians are names, formulas or Python functions; steps
- run as machine code; arrays are views of the memory of the library.")
+The module hamflow integrates Hamilton's equations with symplectic,
+energy-conserving and reversible methods. Hamiltonians are names, formulas
+or Python functions; steps run as machine code; arrays are views of the
+memory of the library.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, ${drawing}")
@@ -106,12 +109,14 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/d
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-h5py, python3-pandas, python3-distributed, hamflow-doc")
 
 set(CPACK_COMPONENT_DOCUMENTS_DESCRIPTION "structure-preserving integration of Hamiltonian systems - documentation
- Tutorials, how-to pages, the reference and the design pages of hamflow.")
+Tutorials, how-to pages, the reference and the design pages of hamflow,
+which integrates Hamilton's equations with symplectic, energy-conserving
+and reversible methods.")
 set(CPACK_DEBIAN_DOCUMENTS_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOCUMENTS_PACKAGE_ARCHITECTURE all)
 
-set(CPACK_COMPONENT_LABORATORY_DESCRIPTION "structure-preserving integration of Hamiltonian systems - page for a browser
- The laboratory of hamflow is one HTML file: it integrates in the browser and draws
- motions, sections and energies while they are computed.")
+set(CPACK_COMPONENT_LABORATORY_DESCRIPTION "structure-preserving integration of Hamiltonian systems - web page
+The laboratory of hamflow is one HTML file: it integrates in the browser
+and draws motions, sections and energies while they are computed.")
 set(CPACK_DEBIAN_LABORATORY_PACKAGE_ARCHITECTURE all)
 include(CPack)
