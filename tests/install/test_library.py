@@ -16,7 +16,7 @@ from documents import PREFIX, ROOT, WORK, Block, blocks
 
 PROJECT = """cmake_minimum_required(VERSION 3.25)
 project(outside CXX)
-find_package(hamflow 0.1 REQUIRED)
+find_package(hamflow 0.2 REQUIRED)
 file(GLOB programs *.cpp)
 foreach(program IN LISTS programs)
   get_filename_component(name ${program} NAME_WE)

@@ -10,12 +10,14 @@ from documents import BUILD, PREFIX, ROOT, WORK, blocks_of
 
 README = ROOT / "README.md"
 FOLDER = WORK / "readme"
+VERSION = re.search(r'HAMFLOW_VERSION "(.*)"', (ROOT / "include/hamflow/core/version.hpp").read_text())[1]
 
 
 class Readme(unittest.TestCase):
     def test_every_command_runs(self):
         """A block that names a file is that file; each line of a block of sh is a command, and has to end with status 0, or with
-        that of a comment "# exit 2". What names the build is run in the clone, and of ./dev its tasks are looked up."""
+        that of a comment "# exit 2". What names the build is run in the clone, and of ./dev its tasks are looked up.
+        Packages are tried elsewhere."""
         shutil.rmtree(FOLDER, ignore_errors=True)
         home = FOLDER / "home"
         empty = FOLDER / "empty"
@@ -31,6 +33,9 @@ class Readme(unittest.TestCase):
             if block.names:
                 (empty / block.names).write_text(block.text)
             if block.language != "sh":
+                continue
+            if packages := re.findall(r"hamflow[-_](\d+\.\d+\.\d+)", block.text):  # tools/package/try_packages runs them
+                self.assertEqual(set(packages), {VERSION}, block.where)
                 continue
             for command in block.text.replace("\\\n", " ").splitlines():
                 with self.subTest(command):

@@ -1,5 +1,9 @@
 # Draws what tools/figures/energy_kept has run: runs is the folder, out the file.
-set terminal svg size 1040,350 font 'sans-serif,14' background rgb 'white'
+if (out[strlen(out)-3:*] eq '.pdf') {
+  set terminal pdfcairo size 10.83in,3.65in font 'sans-serif,10.5'  # the same in inches and points
+} else {
+  set terminal svg size 1040,350 font 'sans-serif,14' background rgb 'white'
+}
 set output out
 set datafile separator ','
 set border linewidth 0.6 linecolor rgb '#333333'
