@@ -12,12 +12,12 @@ namespace hamflow {
 namespace {
 
 using Keys = SocketKeys;
-constexpr std::size_t space = 3;
+constexpr std::size_t space_dimension = 3;
 
 Cell cell_of(const Parameters<double>& given) {
   const std::vector<double>& numbers = given.list(Keys::cell);
   Cell cell{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) cell.at(numbers.size() == space ? 4 * i : i) = numbers[i];
+  for (std::size_t i = 0; i < numbers.size(); ++i) cell.at(numbers.size() == space_dimension ? 4 * i : i) = numbers[i];
   return cell;
 }
 
@@ -27,15 +27,15 @@ double volume(const Cell& c) {
 
 std::string refused_size(const Texts& texts, std::size_t size) {
   const std::size_t masses = Parameters<double>(texts).list(Keys::masses).size();
-  if (size == 0 || size % space != 0) return "3 numbers for each atom";
-  if (masses == 1 || masses * space == size) return {};
-  return std::to_string(masses * space) + " numbers for the " + std::to_string(masses) + " atoms of masses";
+  if (size == 0 || size % space_dimension != 0) return "3 numbers for each atom";
+  if (masses == 1 || masses * space_dimension == size) return {};
+  return std::to_string(masses * space_dimension) + " numbers for the " + std::to_string(masses) + " atoms of masses";
 }
 
 std::pair<std::string, std::string> refused_parameters(const Texts& texts) {
   const Parameters<double> given(texts);
   const std::size_t size = given.list(Keys::cell).size();
-  if (size != space && size != space * space) {
+  if (size != space_dimension && size != space_dimension * space_dimension) {
     return {Keys::cell, "allowed 3 edges, or the 9 components of three vectors"};
   }
   if (!(volume(cell_of(given)) > 0)) return {Keys::cell, "allowed three vectors that span a positive volume"};
@@ -129,7 +129,7 @@ void add_functions(ProblemEntry& e, const std::string& address) {
   e.total_mass = [](const Texts& parameters, std::size_t size) {
     const SocketProblem problem = problem_of(nullptr, Parameters<double>(parameters), size);
     double sum = 0;
-    for (std::size_t i = 0; i < size; i += space) sum += problem.mass(i);
+    for (std::size_t i = 0; i < size; i += space_dimension) sum += problem.mass(i);
     return sum;
   };
 }
