@@ -1,4 +1,5 @@
-# What is installed. Each component is a Debian package of cmake/packages.cmake: command, development, python.
+# The files that `cmake --install` copies. cmake/packages.cmake makes a Debian package of each component: command,
+# development, python.
 #
 # find_package(hamflow) offers one target, hamflow::hamflow, for all that the headers declare. A static library costs a program
 # only what it uses. Each component of find_package is a target with fewer dependencies; hamflow::core is the catalogue of

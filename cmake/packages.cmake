@@ -20,7 +20,7 @@ install(DIRECTORY docs/ DESTINATION share/doc/hamflow-doc/text COMPONENT documen
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/build/site/html" DESTINATION share/doc/hamflow-doc COMPONENT documents EXCLUDE_FROM_ALL OPTIONAL
         PATTERN .buildinfo EXCLUDE PATTERN .doctrees EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/build/web/laboratory.html" DESTINATION share/hamflow COMPONENT laboratory OPTIONAL)
-# What is built by a target is stripped by CMake; hamflow-reproduce comes from a build of its own.
+# CMake strips only programs of its own targets. A separate build makes hamflow-reproduce, which is stripped here.
 install(CODE [[
   if(CMAKE_INSTALL_DO_STRIP AND EXISTS "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/hamflow-reproduce")
     execute_process(COMMAND strip "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/hamflow-reproduce" COMMAND_ERROR_IS_FATAL ANY)
