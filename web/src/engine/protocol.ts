@@ -66,6 +66,34 @@ export interface MethodName {
   purpose: string; // empty: not recommended first
 }
 
+/// A key of the scenario and `count` equidistant values of it.
+export interface MapAxis {
+  key: string; // dotted path, such as problem.initial.q[0]
+  from: number;
+  to: number;
+  count: number;
+}
+
+/// A map has a number for each pair of values. Each cell is a run of its own.
+export interface MapSpec {
+  x: MapAxis;
+  y: MapAxis;
+  /// lyapunov, energy_error, relative_energy_error, bounces, or an expression of the state after the last step.
+  observable: string;
+  steps: number;
+}
+
+export interface MapFacts {
+  cells: number; // cell ix + iy * x.count has the ix-th value of x and the iy-th value of y
+  lanes: number; // cells that run together
+}
+
+/// A key with a number, which a map can vary.
+export interface SweepableKey {
+  key: string;
+  value: number;
+}
+
 /// The functions, each with its arguments after the number of the motion, and its answer.
 export interface Calls {
   open: { args: [text: string, sets: string]; answer: Facts };
@@ -76,6 +104,12 @@ export interface Calls {
   returned: { args: []; answer: Returned };
   certificate: { args: []; answer: Certificate };
   methods: { args: []; answer: MethodName[] };
+  sweepable: { args: [text: string]; answer: SweepableKey[] };
+  /// Begins a map in place of the last one. `spec`: a MapSpec as JSON.
+  map: { args: [text: string, spec: string]; answer: MapFacts };
+  /// Computes the cells first, first + stride, ..., at most `count` of them, until the time is over. The rows of the
+  /// reply are their `done` numbers; NaN: the cell has no start, or its motion failed.
+  cells: { args: [first: number, stride: number, count: number, milliseconds: number]; answer: { done: number } };
 }
 export type CallName = keyof Calls;
 
@@ -86,7 +120,7 @@ export interface Question {
   args: (string | number)[];
 }
 
-/// Rows and points accompany `open`, `show` and `advance`.
+/// Rows and points accompany `open`, `show` and `advance`; rows accompany `cells`.
 export interface Reply {
   id: number;
   json: string;

@@ -42,6 +42,9 @@ function answer(module: EngineModule, request: Question): Reply {
     response.rows = numbers(module, module._hamflow_rows(request.motion), module._hamflow_count(request.motion));
     response.points = numbers(module, module._hamflow_points(request.motion), module._hamflow_point_count(request.motion));
   }
+  if (request.call === "cells" && !json.startsWith('{"errors"')) {
+    response.rows = numbers(module, module._hamflow_cell_numbers(0), (JSON.parse(json) as { done: number }).done);
+  }
   return response;
 }
 
