@@ -66,25 +66,9 @@ export interface MethodName {
   purpose: string; // empty: not recommended first
 }
 
-/// A key of the scenario and `count` equidistant values of it.
-export interface MapAxis {
-  key: string; // dotted path, such as problem.initial.q[0]
-  from: number;
-  to: number;
-  count: number;
-}
-
-/// A map has a number for each pair of values. Each cell is a run of its own.
-export interface MapSpec {
-  x: MapAxis;
-  y: MapAxis;
-  /// lyapunov, energy_error, relative_energy_error, bounces, or an expression of the state after the last step.
-  observable: string;
-  steps: number;
-}
-
 export interface MapFacts {
-  cells: number; // cell ix + iy * x.count has the ix-th value of x and the iy-th value of y
+  columns: number; // values of x
+  rows: number; // values of y
   lanes: number; // cells that run together
 }
 
@@ -105,8 +89,11 @@ export interface Calls {
   certificate: { args: []; answer: Certificate };
   methods: { args: []; answer: MethodName[] };
   sweepable: { args: [text: string]; answer: SweepableKey[] };
-  /// Begins a map in place of the last one. `spec`: a MapSpec as JSON.
-  map: { args: [text: string, spec: string]; answer: MapFacts };
+  /// Begins a map in place of the last one: a number for each pair of values of two keys. Each cell is a run of its own;
+  /// cell ix + iy * columns has the ix-th value of x and the iy-th of y.
+  /// x, y: KEY=FROM:TO:COUNT, as after --vary of the command; observable: lyapunov, energy_error (the largest |H - H(0)|),
+  /// relative_energy_error, bounces, or an expression of the state after the last step.
+  map: { args: [text: string, x: string, y: string, observable: string, steps: number]; answer: MapFacts };
   /// Computes the cells first, first + stride, ..., at most `count` of them, until the time is over. The rows of the
   /// reply are their `done` numbers; NaN: the cell has no start, or its motion failed.
   cells: { args: [first: number, stride: number, count: number, milliseconds: number]; answer: { done: number } };
