@@ -111,7 +111,7 @@ class Motion {
     Json particles;
     if (scenario_.problem->particles) {
       const ParticleFacts found = scenario_.problem->particles(scenario_.request.parameters);
-      particles = {{"space", found.space}, {"edges", found.edges}, {"radius", found.radius}};
+      particles = {{"space", found.space}, {"edges", found.edges}, {"radius", found.radius}, {"repulsion", found.repulsion}};
     }
     const MethodInfo method = describe(scenario_.request.method);
     return {{"problem", scenario_.problem->info.name},
@@ -129,6 +129,7 @@ class Motion {
             {"particles", particles},
             {"section", section_facts()},
             {"observables", observables()},
+            {"settings", settings()},
             {"notes", scenario_.notes}};
   }
 
@@ -214,6 +215,14 @@ class Motion {
     Json all = Json::array();
     for (const NamedExpression& each : scenario_.observables) {
       all.push_back({{"name", each.name}, {"expression", each.expression.text()}});
+    }
+    return all;
+  }
+  /// The values in the text, with the places where they stand.
+  Json settings() const {
+    Json all = Json::array();
+    for (const auto& [path, each] : scenario_.settings) {
+      all.push_back({{"path", path}, {"text", each.text}, {"line", each.line}, {"column", each.column}});
     }
     return all;
   }
