@@ -27,7 +27,7 @@ list(APPEND HAMFLOW_LEFT_OUT
   src/bulk/kernel_avx512.cpp
   src/steps/erased_simulation_mp.cpp)
 if(EMSCRIPTEN)  # src/portable/emscripten and web/engine/left_out.cpp stand in
-  list(APPEND HAMFLOW_LEFT_OUT src/native/step_loop.cpp src/socket/force_server.cpp src/walls/walled_step_map.cpp)
+  list(APPEND HAMFLOW_LEFT_OUT src/native/lane_function.cpp src/native/step_loop.cpp src/socket/force_server.cpp src/walls/walled_step_map.cpp)
   return()  # the headers are known
 endif()
 # The headers alone of fmt and toml++: Debian's libraries of them are for the machine on which is built.

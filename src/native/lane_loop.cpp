@@ -2,16 +2,13 @@
 #include <array>
 #include <stdexcept>
 
-#include "is_enabled.hpp"
 #include "lanes.hpp"
-#include "passes.hpp"
 
 namespace hamflow {
 namespace native {
 namespace {
 
 constexpr std::size_t most_registers = 4;
-constexpr std::size_t run_of_one = 32;  // 12 to 40 are similar; with 1 Kepler is 10 %, compensated sums 25 % slower
 
 class LaneLoopOf final : public LaneLoop {
  public:
@@ -62,23 +59,9 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
     throw std::invalid_argument("make_lane_loop: found " + std::to_string(registers) +
                                 " registers to a number; allowed 1 to 4");
   native::LaneProgram ready = native::lane_program(program, differs);
-  std::unique_ptr<const native::Function> function;
-  if (const unsigned available = native::lane_registers(lanes); available > 0 && native::is_enabled()) {
-    const Program step = native::with_both(native::interleaved(ready, registers, native::run_of_one));
-    const unsigned masks = lanes == LaneSet::avx2 && native::needs_masks(step) ? 1 : 0;
-    function = native::assembled_lanes(native::placed(step, available - masks, steps), step.constants, ready.uniform,
-                                       registers, lanes);
-  }
+  std::unique_ptr<const native::Function> function = native::lane_function(ready, registers, lanes, steps);
   const std::size_t count = registers * (lanes == LaneSet::avx512 ? 8 : 4);
   return std::make_unique<native::LaneLoopOf>(std::move(ready), count, registers, std::move(function));
-}
-
-LaneSet widest_native_lanes() {
-  if (!native::is_enabled()) return LaneSet::generic;
-  for (const LaneSet set : {LaneSet::avx512, LaneSet::avx2}) {
-    if (native::lane_registers(set) > 0) return set;
-  }
-  return LaneSet::generic;
 }
 
 }  // namespace hamflow

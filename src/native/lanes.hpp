@@ -31,6 +31,10 @@ unsigned lane_registers(LaneSet lanes);
 std::unique_ptr<const Function> assembled_lanes(const PlacedProgram& program, const std::vector<double>& constants,
                                                 std::size_t uniform, std::size_t registers, LaneSet lanes);
 
+/// The step as machine code with `registers` registers per value; null if there is none, or it is not enabled.
+std::unique_ptr<const Function> lane_function(const LaneProgram& program, std::size_t registers, LaneSet lanes,
+                                              StepsOfLoop steps);
+
 /// Interprets a program on arrays, operation by operation. Constants from `uniform` on are read from `varying`.
 /// @param lanes the length of each array, a multiple of 4   @return the number of steps taken
 std::int64_t interpret_lanes(const Program& program, std::size_t uniform, std::size_t lanes, double* carried,

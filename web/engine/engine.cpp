@@ -6,21 +6,20 @@
 #include <bit>
 #include <cstring>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "hamflow/core/complaint.hpp"
+#include "answers.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
+#include "map.hpp"
+#include "starts.hpp"
 
 namespace hamflow {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Calls a function for the state after every n-th step, and for the state in which it begins.
 class EveryStep final : public Observer {
@@ -255,32 +254,8 @@ class Motion {
 };
 
 std::vector<std::unique_ptr<Motion>> motions;
-std::string answer;
-
-const char* answered(const Json& json) {
-  answer = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return answer.c_str();
-}
-
-Json errors_of(const std::vector<Complaint>& complaints) {
-  Json all = Json::array();
-  for (const Complaint& each : complaints) {
-    all.push_back({{"line", each.line}, {"column", each.column}, {"key", each.key}, {"message", each.message}});
-  }
-  return {{"errors", all}};
-}
-
-/// The answer of a function, or its error.
-template <class Function>
-const char* guarded(Function&& function) {
-  try {
-    return answered(function());
-  } catch (const Rejection& rejection) {
-    return answered(errors_of(rejection.complaints));
-  } catch (const std::exception& error) {
-    return answered(errors_of({Complaint{.message = error.what()}}));
-  }
-}
+std::unique_ptr<Map> map_of_cells;
+std::unique_ptr<Starts> starts;
 
 Motion& motion(int number) { return *motions.at(static_cast<std::size_t>(number)); }
 
@@ -363,5 +338,47 @@ EMSCRIPTEN_KEEPALIVE const char* hamflow_methods(int) {
     return all;
   });
 }
+
+/// The keys of a scenario with numbers.
+EMSCRIPTEN_KEEPALIVE const char* hamflow_sweepable(int, const char* text) {
+  return guarded([&]() -> Json {
+    Json all = Json::array();
+    for (const auto& [key, value] : sweepable_keys(text)) all.push_back({{"key", key}, {"value", value}});
+    return all;
+  });
+}
+EMSCRIPTEN_KEEPALIVE const char* hamflow_map(int, const char* text, const char* x, const char* y,
+                                             const char* observable, double steps) {
+  return guarded([&]() -> Json {
+    map_of_cells = std::make_unique<Map>(text, x, y, observable, static_cast<std::int64_t>(steps));
+    return {{"columns", map_of_cells->columns()}, {"rows", map_of_cells->rows()}, {"lanes", map_of_cells->lanes()}};
+  });
+}
+EMSCRIPTEN_KEEPALIVE const char* hamflow_cells(int, double first, double stride, double count, double milliseconds) {
+  return guarded([&]() -> Json {
+    if (map_of_cells == nullptr) throw Error("found no map; begin one first");
+    map_of_cells->compute(static_cast<std::size_t>(first), static_cast<std::size_t>(stride),
+                          static_cast<std::size_t>(count), milliseconds);
+    return {{"done", map_of_cells->numbers().size()}};
+  });
+}
+EMSCRIPTEN_KEEPALIVE const double* hamflow_cell_numbers(int) { return map_of_cells->numbers().data(); }
+EMSCRIPTEN_KEEPALIVE int hamflow_cell_count(int) { return static_cast<int>(map_of_cells->numbers().size()); }
+
+EMSCRIPTEN_KEEPALIVE const char* hamflow_starts(int, const char* text, const char* sets) {
+  return guarded([&]() -> Json {
+    starts = std::make_unique<Starts>(text, lines_of(sets));
+    return {{"starts", starts->counts().size()}};
+  });
+}
+EMSCRIPTEN_KEEPALIVE const char* hamflow_points_of_starts(int, double most, double milliseconds) {
+  return guarded([&]() -> Json {
+    if (starts == nullptr) throw Error("found no starts; give some first");
+    starts->advance(static_cast<std::int64_t>(most), milliseconds);
+    return {{"step", starts->step()}, {"counts", starts->counts()}, {"failures", starts->failures()}};
+  });
+}
+EMSCRIPTEN_KEEPALIVE const double* hamflow_start_numbers(int) { return starts->points().data(); }
+EMSCRIPTEN_KEEPALIVE int hamflow_start_number_count(int) { return static_cast<int>(starts->points().size()); }
 
 }  // extern "C"

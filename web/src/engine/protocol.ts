@@ -78,6 +78,12 @@ export interface SweepableKey {
   value: number;
 }
 
+export interface StartsState {
+  step: number;
+  counts: number[]; // points of each start so far
+  failures: string[]; // for each start why it has ended; empty: it goes on
+}
+
 /// The functions, each with its arguments after the number of the motion, and its answer.
 export interface Calls {
   open: { args: [text: string, sets: string]; answer: Facts };
@@ -88,6 +94,11 @@ export interface Calls {
   returned: { args: []; answer: Returned };
   certificate: { args: []; answer: Certificate };
   methods: { args: []; answer: MethodName[] };
+  /// Begins section points of some starts in place of the last ones. `sets`: PATH=VALUE, one line for each start.
+  starts: { args: [text: string, sets: string]; answer: { starts: number } };
+  /// Advances the starts together until each has `most` points in all, or the time is over. The rows of the reply are the
+  /// new points: the number of its start, t, all q, all p.
+  points_of_starts: { args: [most: number, milliseconds: number]; answer: StartsState };
   sweepable: { args: [text: string]; answer: SweepableKey[] };
   /// Begins a map in place of the last one: a number for each pair of values of two keys. Each cell is a run of its own;
   /// cell ix + iy * columns has the ix-th value of x and the iy-th of y.
@@ -107,7 +118,7 @@ export interface Question {
   args: (string | number)[];
 }
 
-/// Rows and points accompany `open`, `show` and `advance`; rows accompany `cells`.
+/// Rows and points accompany `open`, `show` and `advance`; rows accompany `cells` and `points_of_starts`.
 export interface Reply {
   id: number;
   json: string;

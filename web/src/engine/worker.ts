@@ -37,13 +37,14 @@ function answer(module: EngineModule, request: Question): Reply {
   const json = module.UTF8ToString(call(request.motion, ...args));
   for (const text of texts) module._free(text);
   const response: Reply = { id: request.id, json, rows: null, points: null };
-  const has_rows = request.call === "open" || request.call === "show" || request.call === "advance";
-  if (has_rows && !json.startsWith('{"errors"')) {
+  if (json.startsWith('{"errors"')) return response;
+  if (request.call === "open" || request.call === "show" || request.call === "advance") {
     response.rows = numbers(module, module._hamflow_rows(request.motion), module._hamflow_count(request.motion));
     response.points = numbers(module, module._hamflow_points(request.motion), module._hamflow_point_count(request.motion));
-  }
-  if (request.call === "cells" && !json.startsWith('{"errors"')) {
-    response.rows = numbers(module, module._hamflow_cell_numbers(0), (JSON.parse(json) as { done: number }).done);
+  } else if (request.call === "cells") {
+    response.rows = numbers(module, module._hamflow_cell_numbers!(0), module._hamflow_cell_count!(0));
+  } else if (request.call === "points_of_starts") {
+    response.rows = numbers(module, module._hamflow_start_numbers!(0), module._hamflow_start_number_count!(0));
   }
   return response;
 }
