@@ -57,7 +57,10 @@ class ProblemUnit : ProblemStart<Family> {
   }
 
   /// Null if there is no typed kernel for the request: it then runs behind virtual calls, recorded if possible.
-  static std::unique_ptr<Simulation> simulate(const Request& request) {
+  static std::unique_ptr<Simulation> simulate([[maybe_unused]] const Request& request) {
+#ifdef HAMFLOW_DOUBLE_ONLY
+    return nullptr;  // a small program has none
+#else
     return visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
       if constexpr (!M::template accepts<P> || !has_typed_kernel<M>()) {
         return nullptr;
@@ -79,6 +82,7 @@ class ProblemUnit : ProblemStart<Family> {
         return nullptr;
       }
     });
+#endif
   }
 };
 
