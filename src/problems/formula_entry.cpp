@@ -87,19 +87,35 @@ StateOf<R> start_of(const Typed& typed, const AnyFormula<R>& problem, const Requ
     for (R& x : s.p) x = R(spec.direction) * x;
     return s;
   }
-  const auto with = [&](const R& free) {
-    const auto read = [&](const std::vector<std::string>& texts) {
-      if (const std::string why_not = refused_size(model, texts.size()); !why_not.empty()) {
-        throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
-                    std::to_string(texts.size()));
-      }
-      Vector<R, dynamic> out(model.degrees());  // time and its momentum start at 0
-      for (std::size_t i = 0; i < texts.size(); ++i) {
-        out[i] = is_left_to_energy(texts[i]) ? free : evaluate_number<R>(texts[i]);
-      }
+  // The texts are read once: the search for a start of given energy asks for many.
+  struct Numbers {
+    Vector<R, dynamic> all;
+    std::vector<std::size_t> open;  // left to the energy
+    Vector<R, dynamic> with(const R& free) const {
+      Vector<R, dynamic> out = all;
+      for (const std::size_t i : open) out[i] = free;
       return out;
-    };
-    StateOf<R> s{read(spec.q), read(spec.v.empty() ? spec.p : spec.v)};
+    }
+  };
+  const auto read = [&](const std::vector<std::string>& texts) {
+    if (const std::string why_not = refused_size(model, texts.size()); !why_not.empty()) {
+      throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
+                  std::to_string(texts.size()));
+    }
+    Numbers numbers{Vector<R, dynamic>(model.degrees()), {}};  // time and its momentum start at 0
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      if (is_left_to_energy(texts[i])) {
+        numbers.open.push_back(i);
+      } else {
+        numbers.all[i] = evaluate_number<R>(texts[i]);
+      }
+    }
+    return numbers;
+  };
+  const Numbers q = read(spec.q);
+  const Numbers p = read(spec.v.empty() ? spec.p : spec.v);
+  const auto with = [&](const R& free) {
+    StateOf<R> s{q.with(free), p.with(free)};
     if (!spec.v.empty()) s.p = ProblemStart<AnyFormula>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };

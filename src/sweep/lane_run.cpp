@@ -57,7 +57,8 @@ void LaneRun::take_sums() {
     if (block_.is_lost(lane)) continue;
     block_.show(lane, frame_);
     SummedSteps& observer = *observers_[lane].sums;
-    std::ranges::copy(block_.sums(lane), observer.sums().begin());
+    const std::vector<StepSum> sums = block_.sums(lane);
+    std::copy(sums.begin(), sums.end(), observer.sums().begin());
     observer.reach(frame_);
   }
 }

@@ -20,5 +20,11 @@ export async function load_engine(folder) {
       given.forEach((address, i) => typeof args[i] === "string" && module._free(address));
       return answer;
     },
+    /// Numbers that a function returns by address, and counts that it returns.
+    numbers(name, count) {
+      const address = module[`_hamflow_${name}`](0) / 8;
+      return module.HEAPF64.slice(address, address + count);
+    },
+    count: (name) => module[`_hamflow_${name}`](0),
   };
 }

@@ -31,6 +31,27 @@ bool same_kind(const Request& a, const Request& b) {
          a.method.name == b.method.name && a.method.options == b.method.options && same_walls(a.walls, b.walls);
 }
 
+/// The text of a number that a map can set without the reader: of the start, a parameter or the step size; null if the
+/// path names none.
+std::string* text_at(const std::string& path, Request& request) {
+  const auto entry = [&](const std::string& list, std::vector<std::string>& texts) -> std::string* {
+    for (std::size_t i = 0; path.starts_with(list) && i < texts.size(); ++i) {
+      if (path == list + "[" + std::to_string(i) + "]") return &texts[i];
+    }
+    return nullptr;
+  };
+  if (path == "run.dt") return &request.dt;
+  if (path == "problem.initial.energy" && !request.start.energy.empty()) return &request.start.energy;
+  if (std::string* const q = entry("problem.initial.q", request.start.q)) return q;
+  if (std::string* const p = entry("problem.initial.p", request.start.p)) return p;
+  for (const char* const table : {"problem.parameters.", "problem."}) {
+    if (!path.starts_with(table)) continue;
+    const auto found = request.parameters.find(path.substr(std::string(table).size()));
+    if (found != request.parameters.end()) return &found->second;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Map::Map(const std::string& text, const std::string& x, const std::string& y, std::string observable,
@@ -45,25 +66,70 @@ Map::Map(const std::string& text, const std::string& x, const std::string& y, st
   // Single cells may have no start, but not all of them.
   const std::size_t all = varied_.members();
   std::optional<Cell> any;
-  for (const std::size_t member : {all / 2 + columns() / 2, std::size_t{0}, all - 1}) {
-    if (!any && member < all) any = cell(member, 0);
+  for (const std::size_t number : {all / 2 + columns() / 2, std::size_t{0}, all - 1}) {
+    if (!any && number < all) any = read_cell(number, 0);
   }
   if (!any) {
     const Reading reading = reader_.read(0);
     if (!reading.complaints.empty()) throw Rejection(reading.complaints);
     throw Error(reading.no_start);
   }
+  pattern_ = any->scenario;
+  if (!are_makeable()) pattern_.reset();
   prepare(*any);
   numbers_.assign(1, nothing);
   run_together({&*any, 1});
 }
 
 /// Nothing if the cell has no start or its scenario is refused.
-std::optional<Map::Cell> Map::cell(std::size_t number, std::size_t place) {
+std::optional<Map::Cell> Map::read_cell(std::size_t number, std::size_t place) {
   Reading reading = reader_.read(number);
   if (!reading.scenario) return std::nullopt;
   Member member = member_of(*reading.scenario);
   return Cell{place, std::move(*reading.scenario), std::move(member)};
+}
+
+/// The same cell, made of the pattern without the reader. Nothing if it has no start.
+std::optional<Map::Cell> Map::made_cell(std::size_t number, std::size_t place) const {
+  Cell cell{place, *pattern_, {}};
+  Request& request = cell.scenario.request;
+  for (std::size_t key = 0; key < varied_.size(); ++key) {
+    std::string* const text = text_at(varied_.keys()[key].path, request);
+    if (text == nullptr) return std::nullopt;
+    *text = varied_.text(number, key);
+  }
+  try {
+    Frame start = cell.scenario.problem->start(request);
+    if (!cell.scenario.problem->regular(request.parameters, start.q, start.p)) return std::nullopt;
+    cell.scenario.start_q = std::move(start.q);
+    cell.scenario.start_p = std::move(start.p);
+  } catch (const NoStart&) {
+    return std::nullopt;
+  }
+  cell.member = member_of(cell.scenario);
+  return cell;
+}
+
+/// Whether cells can be made of the pattern: both keys are numbers of the start, parameters or the step size, and some
+/// cells are those that are read.
+bool Map::are_makeable() {
+  if (pattern_->request.walls || pattern_->request.start.geometric() || pattern_->request.start.q.empty()) return false;
+  for (const Vary& key : varied_.keys()) {
+    if (!key.range || text_at(key.path, pattern_->request) == nullptr) return false;
+  }
+  const std::size_t all = varied_.members();
+  for (const std::size_t number : {std::size_t{0}, all / 3, all / 2 + columns() / 2, all - 1}) {
+    if (number >= all) continue;
+    const std::optional<Cell> read = read_cell(number, 0);
+    const std::optional<Cell> made = made_cell(number, 0);
+    if (read.has_value() != made.has_value()) return false;
+    if (read && (read->member.start.q != made->member.start.q || read->member.start.p != made->member.start.p ||
+                 read->member.start.parameters != made->member.start.parameters ||
+                 read->member.start.h != made->member.start.h || read->member.shape != made->member.shape)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Whether the block is for cells like this one.
@@ -90,7 +156,8 @@ void Map::compute(std::size_t first, std::size_t stride, std::size_t count, doub
   std::vector<Cell> cells;
   for (std::size_t k = 0; k < count && first + k * stride < varied_.members();) {
     numbers_.push_back(nothing);
-    if (std::optional<Cell> next = cell(first + k * stride, k)) {
+    const std::size_t number = first + k * stride;
+    if (std::optional<Cell> next = pattern_ ? made_cell(number, k) : read_cell(number, k)) {
       if (!is_ready_for(*next)) run(cells);
       prepare(*next);
       cells.push_back(std::move(*next));
@@ -205,7 +272,7 @@ std::vector<std::pair<std::string, double>> sweepable_keys(const std::string& te
   std::vector<std::pair<std::string, double>> all;
   const auto add = [&](const std::string& path, const std::string& value) {
     try {
-      all.emplace_back(path, evaluate_number<double>(value));
+      all.emplace_back(path, evaluate_number<double>(without_quotes(value)));
     } catch (const Error&) {  // a text
     }
   };
@@ -214,8 +281,8 @@ std::vector<std::pair<std::string, double>> sweepable_keys(const std::string& te
     const std::string& value = setting.text;
     if (!value.starts_with("[")) {
       add(path, value);
-    } else if (value.find_first_of("{\"") == std::string::npos) {
-      const std::vector<std::string> parts = list_parts(value.substr(1, value.size() - 2));
+    } else if (value.find('{') == std::string::npos) {
+      const std::vector<std::string> parts = list_parts(value);
       for (std::size_t i = 0; i < parts.size(); ++i) add(path + "[" + std::to_string(i) + "]", parts[i]);
     }
   }

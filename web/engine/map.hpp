@@ -37,7 +37,9 @@ class Map {
     Member member;
   };
 
-  std::optional<Cell> cell(std::size_t number, std::size_t place);
+  std::optional<Cell> read_cell(std::size_t number, std::size_t place);
+  std::optional<Cell> made_cell(std::size_t number, std::size_t place) const;
+  bool are_makeable();
   bool is_ready_for(const Cell& cell) const;
   void prepare(const Cell& cell);
   void run(std::vector<Cell>& cells);
@@ -49,6 +51,7 @@ class Map {
 
   Varied varied_;
   MemberReader reader_;
+  std::optional<Scenario> pattern_;  // cells are made of it; nothing: each is read
   std::string observable_;
   Kind kind_ = Kind::expression;
   std::int64_t steps_;
