@@ -1,7 +1,6 @@
 // The engine as the page sees it: a worker whose functions return promises.
 import worker_source from "worker-source";
 import type { CallName, Calls, Complaint, Question, Reply } from "./protocol";
-import type { FirstPart } from "./worker";
 
 /// The reader's messages, or one of the engine.
 export class EngineError extends Error {
@@ -16,23 +15,17 @@ export interface Answer<Name extends CallName> {
   points: Float64Array;
 }
 
-/// The bytes of a file: inside this page, compressed (laboratory.html), or beside it.
-export async function asset_bytes(id: string, file: string): Promise<ArrayBuffer> {
-  const inlined = document.getElementById(id);
-  if (inlined === null) return (await fetch(file)).arrayBuffer();
+/// The bytes of the engine: inside this page, compressed (laboratory.html), or in the file beside it.
+async function engine_bytes(): Promise<ArrayBuffer> {
+  const inlined = document.getElementById("engine");
+  if (inlined === null) return (await fetch("engine.wasm")).arrayBuffer();
   const text = atob(inlined.textContent!.trim());
   const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 }
 
-async function part(name: "engine" | "rest"): Promise<WebAssembly.Module> {
-  return WebAssembly.compile(await asset_bytes(name, `${name}.wasm`));
-}
-
-/// What the first motion needs, then the rest.
-let first: Promise<WebAssembly.Module> | undefined;
-let rest: Promise<WebAssembly.Module> | undefined;
+let compiled: Promise<WebAssembly.Module> | undefined;
 
 export class Engine {
   private readonly worker: Worker;
@@ -47,15 +40,8 @@ export class Engine {
       this.waiting.delete(event.data.id);
       resolve?.(event.data);
     };
-    first ??= part("engine");
-    rest ??= document.getElementById("rest") === null ? first.then(() => part("rest")) : part("rest");
-    const part_of_rest = rest.then((module) => this.worker.postMessage(module));
-    // Where there is no file to fetch, the rest goes first.
-    const before = document.getElementById("rest") === null ? first : part_of_rest;
-    this.ready = before.then(async () => {
-      const start: FirstPart = { first: await first!, rest_at: new URL("rest.wasm", document.baseURI).href };
-      this.worker.postMessage(start);
-    });
+    compiled ??= engine_bytes().then((bytes) => WebAssembly.compile(bytes));
+    this.ready = compiled.then((module) => this.worker.postMessage(module));
   }
 
   async call<Name extends CallName>(call: Name, motion = 0, ...args: Calls[Name]["args"]): Promise<Answer<Name>> {

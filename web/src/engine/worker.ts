@@ -1,44 +1,14 @@
-// The worker: one instance of the engine. It gets the compiled modules first, then requests, and answers each of them.
+// The worker: one instance of the engine. It gets the compiled module first, then requests, and answers each of them.
 import hamflowEngine, { type EngineModule } from "hamflow-engine";
 import type { Question, Reply } from "./protocol";
 
-/// The first message: the part of the engine that motions need first, and where the rest is. The rest itself may follow.
-export interface FirstPart {
-  first: WebAssembly.Module;
-  rest_at: string;
-}
-
 const scope = self as unknown as { onmessage: (event: MessageEvent) => void; postMessage(message: unknown, transfer: Transferable[]): void };
 let engine: Promise<EngineModule>;
-let rest: WebAssembly.Module | undefined;
 
-/// The rest, at once: a function of it has been called.
-function loaded_rest(address: string): WebAssembly.Module {
-  const request = new XMLHttpRequest();
-  request.open("GET", address, false);
-  request.responseType = "arraybuffer";
-  request.send();
-  return new WebAssembly.Module(request.response as ArrayBuffer);
-}
-
-function start({ first, rest_at }: FirstPart): Promise<EngineModule> {
-  let primary: WebAssembly.Exports | undefined;
-  let is_whole = false;
-  // A function of the rest stands in the table of functions; before the rest is there, a call goes through here.
-  const placeholder = new Proxy({}, {
-    get: (_, place: string) => (...args: unknown[]): unknown => {
-      if (!is_whole) new WebAssembly.Instance(rest ??= loaded_rest(rest_at), { primary: primary! } as WebAssembly.Imports);
-      is_whole = true;
-      const table = Object.values(primary!).find((each) => each instanceof WebAssembly.Table) as WebAssembly.Table;
-      return (table.get(Number(place)) as (...args: unknown[]) => unknown)(...args);
-    },
-  });
+function start(module: WebAssembly.Module): Promise<EngineModule> {
   return hamflowEngine({
     instantiateWasm(imports, done) {
-      void WebAssembly.instantiate(first, { ...imports, placeholder }).then((instance) => {
-        primary = instance.exports;
-        done(instance, first);
-      });
+      void WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
       return {};
     },
   });
@@ -81,11 +51,7 @@ function answer(module: EngineModule, request: Question): Reply {
 
 scope.onmessage = (event) => {
   if (event.data instanceof WebAssembly.Module) {
-    rest = event.data;
-    return;
-  }
-  if ("first" in event.data) {
-    engine = start(event.data as FirstPart);
+    engine = start(event.data);
     return;
   }
   const request = event.data as Question;
