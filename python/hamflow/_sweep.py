@@ -14,7 +14,7 @@ from . import _core, _html
 from ._errors import Error, shown, stopped
 from ._page import require_axes
 from ._run import Progress, States, progress_of_both
-from ._scenario import scenario_of
+from ._scenario import Scenario, scenario_of
 
 
 class Sweep:
@@ -26,14 +26,21 @@ class Sweep:
         The summary that `hamflow sweep --json` prints.
     failures : list of str
         The messages of members that failed.
+    scenario : Scenario
+        The scenario that all members share, before any key is varied.
     """
 
     def __init__(self, found: Mapping[str, Any]) -> None:
         self._found = {"members": found["members"], "section": found["section"], "json": found["json"],
-                       "failures": list(found["failures"])}
+                       "failures": list(found["failures"]), "scenario": found["scenario"]}
         self._members, self._section = found["members"], found["section"]
         self.summary: dict[str, Any] = json.loads(found["json"])
         self.failures: list[str] = list(found["failures"])
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario that all members share, before any key is varied."""
+        return Scenario.from_text(self._found["scenario"])
 
     @property
     def columns(self) -> list[str]:
@@ -237,7 +244,7 @@ def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, thr
                             existing, progress_of_both(progress))
     except KeyboardInterrupt as error:  # the members are still being read
         raise stopped(error, None) from None
-    result = Sweep(found)
+    result = Sweep({**found, "scenario": str(wanted)})
     if found["interrupted"] is not None:
         raise stopped(found["interrupted"], result)
     return result
@@ -269,7 +276,7 @@ def _on_cluster(client: Any, text: str, varied: list[str], zip: bool, out: Any, 
     except (KeyboardInterrupt, Exception) as error:  # the result keeps the finished members
         trouble = error
         client.cancel(futures)
-    result = Sweep(gathered.found())
+    result = Sweep({**gathered.found(), "scenario": text})
     if trouble is None:
         return result
     if not isinstance(trouble, (KeyboardInterrupt, Error)):

@@ -117,7 +117,7 @@ def _inlined(what: Any) -> dict[str, Any]:
             parts = values.reshape(len(values), -1).astype(float)
             for k in range(parts.shape[1]):
                 columns[name if values.ndim == 1 else f"{name}[{k}]"] = parts[:, k]
-        return _data("sweep", "sweep", "", columns)
+        return _data("sweep", "sweep", str(what.scenario), columns)
     scenario = scenario_of(what)
     return _data("scenario", "scenario", str(scenario), {})
 

@@ -67,6 +67,7 @@ def test_a_sweep_is_in_the_page(page):
     hf.view(sweep, out=page, browser=False)
     data, rows = inlined(page)
     assert data["kind"] == "sweep" and len(rows) == 2
+    assert "verlet" in data["toml"] and data["toml"] == str(sweep.scenario)
     assert list(rows[:, data["columns"].index("varied/run.dt")]) == [0.1, 0.05]
 
 
