@@ -1,4 +1,4 @@
-// Bundles the page: OUT/index.html with laboratory.js and engine.wasm beside it, and OUT/laboratory.html, one file.
+// Bundles the page: OUT/index.html with laboratory.js, engine.wasm and hdf5.js beside it, and OUT/laboratory.html, one file.
 //   node build.mjs ENGINE OUT       ENGINE: the folder with engine.js and engine.wasm
 import { build } from "esbuild";
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -13,14 +13,18 @@ const usual = { bundle: true, minify: true, format: "iife", target: "es2022", wr
 const worker = await build({ ...usual, entryPoints: ["src/engine/worker.ts"], alias: { "hamflow-engine": join(engine, "engine.js") }, external: ["fs", "path"] });
 const gallery = readdirSync(join(here, "src/gallery")).filter((name) => name.endsWith(".toml")).sort();
 const files = gallery.map((name) => ({ name, text: readFileSync(join(here, "src/gallery", name), "utf8") }));
-const made = { "worker-source": `export default ${JSON.stringify(worker.outputFiles[0].text)}`, "gallery-files": `export const files = ${JSON.stringify(files)}` };
+const views = readdirSync(join(here, "src/views")).filter((name) => name.endsWith(".ts")).sort();
+const imports = views.map((name, i) => `import { make as view${i} } from ${JSON.stringify(join(here, "src/views", name))};`);
+const made = { "all-views": `${imports.join("")}export const views = [${views.map((_, i) => `view${i}`)}];`, "worker-source": `export default ${JSON.stringify(worker.outputFiles[0].text)}`, "gallery-files": `export const files = ${JSON.stringify(files)}` };
 const made_modules = {
   name: "made-modules",
   setup(into) {
-    into.onResolve({ filter: /^(worker-source|gallery-files)$/ }, ({ path }) => ({ path, namespace: "made" }));
-    into.onLoad({ filter: /.*/, namespace: "made" }, ({ path }) => ({ contents: made[path], loader: "js" }));
+    into.onResolve({ filter: /^(worker-source|gallery-files|all-views)$/ }, ({ path }) => ({ path, namespace: "made" }));
+    into.onLoad({ filter: /.*/, namespace: "made" }, ({ path }) => ({ contents: made[path], loader: "js", resolveDir: here }));
   },
 };
+const hdf5 = await build({ ...usual, entryPoints: ["src/engine/hdf5_worker.ts"] });
+const hdf5_script = Buffer.from(hdf5.outputFiles[0].contents);
 const page = await build({ ...usual, entryPoints: ["src/main.ts"], plugins: [made_modules] });
 const script = page.outputFiles[0].text;
 const style = readFileSync(join(here, "node_modules/uplot/dist/uPlot.min.css"), "utf8") + readFileSync(join(here, "src/style.css"), "utf8");
@@ -39,7 +43,9 @@ writeFileSync(join(out, "index.html"), html("", '<script src="laboratory.js"></s
 writeFileSync(join(out, "laboratory.js"), script);
 writeFileSync(join(out, "engine.wasm"), wasm);
 copyFileSync(join(engine, "engine.js"), join(out, "engine.js")); // for programs that run the engine without the page
-const inlined = `<script type="application/octet-stream" id="engine">${gzipSync(wasm, { level: 9 }).toString("base64")}</script>`;
+writeFileSync(join(out, "hdf5.js"), hdf5_script);
+const stored = (id, bytes) => `<script type="application/octet-stream" id="${id}">${gzipSync(bytes, { level: 9 }).toString("base64")}</script>`;
+const inlined = stored("engine", wasm) + "\n" + stored("hdf5", hdf5_script);
 const single = html(inlined, `<script>${script.replaceAll("</script", "<\\/script")}</script>`);
 writeFileSync(join(out, "laboratory.html"), single);
 const first_load = [script, style, template].reduce((sum, text) => sum + gzipSync(text, { level: 9 }).length, gzipSync(wasm, { level: 9 }).length);

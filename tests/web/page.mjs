@@ -27,7 +27,8 @@ function expect(condition, what) {
 }
 
 async function opened(options = {}, address = pathToFileURL(file).href) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
+  // With reduced motion nothing plays by itself, so that a test decides what moves.
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, reducedMotion: "reduce", ...options });
   const page = await context.newPage();
   page.errors = [];
   page.on("pageerror", (error) => page.errors.push(String(error)));
@@ -38,7 +39,9 @@ async function opened(options = {}, address = pathToFileURL(file).href) {
   return page;
 }
 const text = (page, id) => page.locator(`#${id}`).textContent();
-const set_speed = (page, value) => page.locator("#speed").evaluate((input, to) => ((input.value = to), input.dispatchEvent(new Event("input"))), String(value));
+const set_input = (page, selector, value, event = "input") => page.locator(selector).evaluate((input, [to, what]) => ((input.value = to), input.dispatchEvent(new Event(what))), [String(value), event]);
+const set_speed = (page, value) => set_input(page, "#speed", value);
+const last_number = (value) => Number(/([-\d.e]+)\D*$/.exec(value)?.[1]);
 const ended = (page) => page.waitForFunction(() => document.getElementById("play").textContent === "Play", null, { timeout: 120_000 });
 async function typed(page, toml) {
   await page.locator("#editor").fill(toml);
@@ -80,6 +83,7 @@ const tests = {
     const toml = lattice.replace("0.45", "0.44");
     await page.locator("#play").click();
     await typed(page, toml);
+    await page.waitForFunction((before) => location.href !== before, "");
     const address = page.url();
     const other = await opened({}, address);
     expect((await other.locator("#editor").inputValue()) === toml, "the address restores the scenario");
@@ -152,7 +156,7 @@ const tests = {
     console.log(`  8 starts with 2000 points each: ${((Date.now() - before) / 1000).toFixed(1)} s`);
     await picture(page, "section");
     const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("#section-csv").click()]);
-    expect(readFileSync(await saved.path(), "utf8").startsWith("start,y,p_y\n"), "section.csv");
+    expect(readFileSync(await saved.path(), "utf8").startsWith("start,t,y,p_y\n"), "section.csv");
     await page.locator("#section-clear").click();
     await page.locator("#section-x").fill("0.2");
     await page.locator("#section-y").fill("0.1");
@@ -164,7 +168,7 @@ const tests = {
   async "everything is exported"() {
     const page = await opened();
     await page.locator("#step").click();
-    await page.locator("summary").click();
+    await page.locator("summary", { hasText: "Open and export" }).click();
     const saved = async (id) => {
       const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`#${id}`).click()]);
       return readFileSync(await download.path());
@@ -234,7 +238,7 @@ const tests = {
       expect((await text(page, "recorded")).startsWith(`circle.${kind}: 101 ${kind === "run" ? "rows" : "members"}`), "what is shown");
       expect((await text(page, "facts")).startsWith("t10x-0.8391"), `the last row: ${await text(page, "facts")}`);
       await page.locator("#scrub").fill("0");
-      expect((await text(page, "facts")).startsWith("t0x1y0"), "the first row");
+      await page.waitForFunction(() => document.getElementById("facts").textContent.startsWith("t0x1y0"));
       await picture(page, kind);
       await page.locator("#integrate").click();
       await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of 4000"));
@@ -242,6 +246,165 @@ const tests = {
       expect(page.errors.length === 0, `no errors: ${page.errors}`);
       rmSync(dirname(given), { recursive: true });
     }
+  },
+
+  async "a slider changes the text and starts the motion again"() {
+    const page = await opened();
+    await typed(page, lattice);
+    await page.waitForFunction(() => document.querySelectorAll("#controls .control").length === 5);
+    const names = await page.locator("#controls .control span").allTextContents();
+    expect(names.join() === "dt,x,y,p_x,p_y", `controls: ${names}`);
+    await set_input(page, ".control:first-child input[type=range]", 900);
+    await page.waitForFunction(() => !document.getElementById("editor").value.includes("dt = 0.05"));
+    const dt = Number(/^dt = (.*)$/m.exec(await page.locator("#editor").inputValue())?.[1]);
+    expect(dt > 0.2 && dt < 0.5, `the scale of dt is logarithmic: ${dt}`);
+    expect((await page.locator("#editor").inputValue()).replace(/dt = .*/, "dt = 0.05") === lattice, "nothing else has changed");
+    await page.waitForFunction((wanted) => document.getElementById("facts").textContent.includes(`dt${wanted}`), String(dt));
+    await page.locator(".control input[inputmode]").nth(2).fill("0.2");
+    await page.locator(".control input[inputmode]").nth(2).press("Enter");
+    await page.waitForFunction(() => document.getElementById("editor").value.includes("q = [0, 0.2]"));
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "the start is dragged in the picture"() {
+    const page = await opened();
+    await typed(page, lattice.replace("p = [0.45, 0.1] }", "p = [0.3, 0.1] } # a comment"));
+    const box = await page.locator("#orbit").boundingBox();
+    // Before the motion the start is in the middle of the axes.
+    const [x, y] = [box.x + 62 + (box.width - 74) / 2, box.y + 10 + (box.height - 52) / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 30, y - 20, { steps: 5 });
+    await page.mouse.up();
+    await page.waitForFunction(() => !document.getElementById("editor").value.includes("q = [0, 0.1]"));
+    const toml = await page.locator("#editor").inputValue();
+    expect(/q = \[[-\d.e]+, [-\d.e]+\], p = \[0.3, 0.1\] \} # a comment/.test(toml), `only the start has changed: ${toml}`);
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "names are completed"() {
+    const page = await opened();
+    const complete = async (toml, typed_text, key = "Tab") => {
+      await page.locator("#editor").fill(toml);
+      await page.locator("#editor").press("Control+End");
+      await page.keyboard.type(typed_text);
+      await page.waitForFunction(() => !document.getElementById("completions").hidden);
+      await page.keyboard.press(key);
+      return page.locator("#editor").inputValue();
+    };
+    expect((await complete("[met", "h")) === "[method]\n", "a table");
+    expect((await complete("[method]\nname = \"", "yos")).startsWith('[method]\nname = "yoshida'), "a method");
+    expect((await complete("[run]\n", "arith")) === '[run]\narithmetic = "', "a key");
+    expect((await complete('[run]\narithmetic = "', "lat", "Enter")) === '[run]\narithmetic = "lattice', "a word of a key");
+    expect((await complete('[problem]\nname = "', "pend")) === '[problem]\nname = "pendulum', "a problem");
+    await page.keyboard.press("Escape");
+    expect(await page.locator("#completions").isHidden(), "Escape closes the list");
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "a map is painted, and a click starts the motion of a cell"() {
+    const page = await opened();
+    await typed(page, lattice.replace('arithmetic = "lattice"\n', ""));
+    await page.locator("#map-figure summary").click();
+    await page.waitForFunction(() => document.getElementById("map-y").value === "problem.initial.q[1]");
+    for (const [id, value] of [["map-x-from", "-0.4"], ["map-x-to", "0.4"], ["map-y-from", "-0.4"], ["map-y-to", "0.6"], ["map-cells", "40"], ["map-steps", "1000"]]) await page.locator(`#${id}`).fill(value);
+    await page.locator("#map-paint").click();
+    await page.waitForFunction(() => /cells of 1000 steps in/.test(document.getElementById("map-status").textContent), null, { timeout: 120_000 });
+    console.log(`  ${await text(page, "map-status")}`);
+    await picture(page, "map");
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("#map-csv").click()]);
+    const rows = readFileSync(await saved.path(), "utf8").trim().split("\n");
+    expect(rows[0] === "problem.initial.q[0],problem.initial.q[1],lyapunov" && rows.length === 1601, `map.csv: ${rows[0]}, ${rows.length} rows`);
+    const numbers = rows.slice(1).map(last_number).filter(Number.isFinite);
+    expect(numbers.length > 800 && Math.min(...numbers) < 0.02 && Math.max(...numbers) > 0.03, "regular and chaotic starts differ");
+    const [png] = await Promise.all([page.waitForEvent("download"), page.locator("#map-png").click()]);
+    expect(readFileSync(await png.path()).subarray(1, 4).toString() === "PNG", "map.png");
+    const box = await page.locator("#map").boundingBox();
+    await page.locator("#map").click({ position: { x: 62 + (box.width - 62 - 94) / 2, y: 10 + (box.height - 52) / 2 } });
+    await page.waitForFunction(() => !document.getElementById("editor").value.includes("q = [0, 0.1]"));
+    expect(/q = \[-?0\.0[\d]*, 0\.[01]\d*\]/.test(await page.locator("#editor").inputValue()), `the start of the cell: ${await page.locator("#editor").inputValue()}`);
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "files are dropped"() {
+    const page = await opened();
+    const drop = async (name, bytes) => {
+      await page.evaluate(() => (document.getElementById("complaints").textContent = ""));
+      const transfer = await page.evaluateHandle(([file, letters]) => {
+        const data = new DataTransfer();
+        data.items.add(new File([Uint8Array.from(atob(letters), (each) => each.charCodeAt(0))], file));
+        return data;
+      }, [name, bytes.toString("base64")]);
+      await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
+    };
+    const formats = join(source, "../tests/data/formats/1.0");
+    await drop("run.h5", readFileSync(join(formats, "run/run.h5")));
+    await page.waitForFunction(() => document.getElementById("recorded").textContent.startsWith("run.h5: 5 rows"), null, { timeout: 30_000 });
+    expect((await text(page, "facts")).startsWith("t") && /q1/.test(await text(page, "facts")), `the columns: ${await text(page, "facts")}`);
+    expect(/henon-heiles/.test(await page.locator("#editor").inputValue()), "its scenario");
+    const csv = readFileSync(join(formats, "run/trajectory.csv"), "utf8").trim().split("\n").pop().split(",").map(Number);
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.evaluate(() => document.getElementById("save-csv").click())]);
+    const rows = readFileSync(await saved.path(), "utf8").trim().split("\n");
+    const last = rows.pop().split(",").map(Number);
+    expect(last.slice(0, 5).every((value) => csv.includes(value)), `the last row: ${last}; trajectory.csv: ${csv}`);
+    await drop("sweep.h5", readFileSync(join(formats, "sweep/sweep.h5")));
+    await page.waitForFunction(() => document.getElementById("recorded").textContent.startsWith("sweep.h5: 3 members"));
+    await drop("notes.txt", Buffer.from("hello"));
+    await page.waitForFunction(() => /notes.txt is no scenario \(.toml\) and no run.h5/.test(document.getElementById("complaints").textContent));
+    await drop("reverse.h5", readFileSync(join(formats, "reversal/reverse.h5")));
+    await page.waitForFunction(() => /reverse.h5 is no run.h5 or sweep.h5/.test(document.getElementById("complaints").textContent));
+    await drop("damaged.h5", readFileSync(join(formats, "run/run.h5")).subarray(0, 3000));
+    await page.waitForFunction(() => /damaged.h5 cannot be read/.test(document.getElementById("complaints").textContent));
+    await drop("kepler.toml", Buffer.from(lattice));
+    await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of 4000"));
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "the time line moves motion, section and series"() {
+    const page = await opened();
+    await set_speed(page, 5);
+    await page.locator("#play").click();
+    await page.waitForFunction(() => Number(document.getElementById("section-count").textContent.split(" ")[0]) > 20);
+    await page.locator("#play").click();
+    await page.waitForFunction(() => document.getElementById("play").textContent === "Play");
+    const pixels = () => page.evaluate(() => ["orbit", "section"].map((id) => document.getElementById(id).toDataURL()).concat(document.querySelector("#energy canvas").toDataURL()));
+    const rows = Number(await page.locator("#scrub").getAttribute("max"));
+    const before = await pixels();
+    await page.locator("#scrub").fill(String(Math.round(rows / 3)));
+    await page.waitForTimeout(300);
+    const third = await pixels();
+    expect(before.every((picture_, i) => picture_ !== third[i]), "all pictures show the row");
+    const time = last_number(await text(page, "time-text"));
+    expect(time > 0, `its time: ${time}`);
+    await picture(page, "scrubbed");
+    const energy = await page.locator("#energy .u-over").boundingBox();
+    await page.mouse.click(energy.x + energy.width * 0.8, energy.y + 30);
+    await page.waitForFunction((at) => Number(/t = (.*)/.exec(document.getElementById("time-text").textContent)?.[1]) > at, time);
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "the picture in space turns"() {
+    const page = await opened();
+    const index = (await page.locator("#gallery option").allTextContents()).indexOf("The spherical pendulum");
+    await page.locator("#gallery").selectOption({ index });
+    await page.waitForFunction(() => document.getElementById("z").value === "z");
+    await set_speed(page, 4);
+    await page.locator("#play").click();
+    await page.waitForTimeout(500);
+    await page.locator("#play").click();
+    await page.waitForFunction(() => document.getElementById("play").textContent === "Play");
+    await page.waitForTimeout(100);
+    const pixels = () => page.locator("#orbit").evaluate((canvas) => canvas.toDataURL());
+    const before = await pixels();
+    const box = await page.locator("#orbit").boundingBox();
+    await page.mouse.move(box.x + 200, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 300, box.y + 230, { steps: 4 });
+    await page.mouse.up();
+    await page.waitForTimeout(100);
+    expect(before !== (await pixels()), "the pointer turns it");
+    await picture(page, "space");
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
   },
 
   async "keys work"() {

@@ -15,10 +15,10 @@ export interface Answer<Name extends CallName> {
   points: Float64Array;
 }
 
-/// The bytes of the engine: inside this page, compressed (laboratory.html), or in the file beside it.
-async function engine_bytes(): Promise<ArrayBuffer> {
-  const inlined = document.getElementById("engine");
-  if (inlined === null) return (await fetch("engine.wasm")).arrayBuffer();
+/// The bytes of a file: inside this page, compressed (laboratory.html), or beside it.
+export async function asset_bytes(id: string, file: string): Promise<ArrayBuffer> {
+  const inlined = document.getElementById(id);
+  if (inlined === null) return (await fetch(file)).arrayBuffer();
   const text = atob(inlined.textContent!.trim());
   const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -40,7 +40,7 @@ export class Engine {
       this.waiting.delete(event.data.id);
       resolve?.(event.data);
     };
-    compiled ??= engine_bytes().then((bytes) => WebAssembly.compile(bytes));
+    compiled ??= asset_bytes("engine", "engine.wasm").then((bytes) => WebAssembly.compile(bytes));
     this.ready = compiled.then((module) => this.worker.postMessage(module));
   }
 

@@ -29,3 +29,8 @@ declare module "worker-source" {
 declare module "gallery-files" {
   export const files: { name: string; text: string }[];
 }
+
+/// The views of src/views in the order of their names (build.mjs).
+declare module "all-views" {
+  export const views: import("../view").MakeView[];
+}

@@ -20,10 +20,40 @@ export interface Facts {
   p: string[];
   invariants: { name: string; meaning: string }[];
   walls: { coordinate: number; min: number | null; max: number | null }[];
-  particles: { space: number; edges: number[]; radius: number } | null;
+  particles: { space: number; edges: number[]; radius: number; repulsion: number } | null;
   section: SectionFacts | null;
   observables: { name: string; expression: string }[];
+  settings: Setting[];
   notes: string[];
+}
+
+/// A value of the text, and where it stands there.
+export interface Setting {
+  path: string;
+  text: string;
+  line: number; // 0: it is not in the text
+  column: number;
+}
+
+/// An option of a problem, a method or a table.
+export interface Declared {
+  name: string;
+  type: string; // of OptionType in option_info.hpp
+  default: string;
+  meaning: string;
+  words: string[];
+  least: number | null; // null: no bound
+  most: number | null;
+  whole: boolean;
+  unit: string;
+  keys: Declared[];
+}
+
+export interface Declarations {
+  tables: Record<string, Declared[]>;
+  problems: { name: string; choices: Record<string, string>; formula: string; keys: Declared[] }[];
+  methods: { name: string; purpose: string; keys: Declared[] }[];
+  arithmetics: string[];
 }
 
 export interface SectionFacts {
@@ -61,11 +91,6 @@ export interface Certificate {
   reversal: { proves: string; reason: string } | null;
 }
 
-export interface MethodName {
-  name: string;
-  purpose: string; // empty: not recommended first
-}
-
 export interface MapFacts {
   columns: number; // values of x
   rows: number; // values of y
@@ -93,7 +118,6 @@ export interface Calls {
   reverse: { args: []; answer: MotionState };
   returned: { args: []; answer: Returned };
   certificate: { args: []; answer: Certificate };
-  methods: { args: []; answer: MethodName[] };
   /// Begins section points of some starts in place of the last ones. `sets`: PATH=VALUE, one line for each start.
   starts: { args: [text: string, sets: string]; answer: { starts: number } };
   /// Advances the starts together until each has `most` points in all, or the time is over. The rows of the reply are the
@@ -108,6 +132,7 @@ export interface Calls {
   /// Computes the cells first, first + stride, ..., at most `count` of them, until the time is over. The rows of the
   /// reply are their `done` numbers; NaN: the cell has no start, or its motion failed.
   cells: { args: [first: number, stride: number, count: number, milliseconds: number]; answer: { done: number } };
+  declarations: { args: []; answer: Declarations };
 }
 export type CallName = keyof Calls;
 

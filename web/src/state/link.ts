@@ -4,6 +4,7 @@ export interface Shared {
   toml: string;
   x: string;
   y: string;
+  z: string; // empty: the picture is plane
   method: string; // of the second motion; empty: there is none
 }
 
@@ -26,6 +27,7 @@ function from_letters(letters: string): Uint8Array {
 export async function fragment_of(shared: Shared): Promise<string> {
   const bytes = await through(new TextEncoder().encode(shared.toml), new CompressionStream("deflate-raw"));
   const all = new URLSearchParams({ s: to_letters(bytes), x: shared.x, y: shared.y });
+  if (shared.z !== "") all.set("z", shared.z);
   if (shared.method !== "") all.set("method", shared.method);
   return `#${all}`;
 }
@@ -41,6 +43,7 @@ export async function shared_by(fragment: string): Promise<Shared | null> {
       toml: new TextDecoder("utf-8", { fatal: true }).decode(bytes),
       x: all.get("x") ?? "",
       y: all.get("y") ?? "",
+      z: all.get("z") ?? "",
       method: all.get("method") ?? "",
     };
   } catch {

@@ -1,44 +1,52 @@
-// The rows of a motion so far. When there are too many, every second one is dropped, from the first on.
+// The rows of a motion so far, column by column. When there are too many, every second one is dropped.
+
+const most_numbers = 4_000_000; // 32 MB
 
 export class Recording {
-  private numbers = new Float64Array(1024);
+  private numbers: Float64Array;
+  private room = 256; // rows
+  private readonly most: number;
+  private skipped = 0;
   count = 0;
   /// Rows of the engine that one row stands for.
   every = 1;
-  private skipped = 0;
 
-  constructor(readonly width: number, private readonly most = 20_000) {}
+  constructor(readonly width: number, most = 20_000) {
+    this.most = Math.max(2, most === Infinity ? most : Math.min(most, Math.floor(most_numbers / width)));
+    this.numbers = new Float64Array(this.room * width);
+  }
 
+  /// @param rows numbers row after row
   append(rows: Float64Array): void {
     for (let at = 0; at + this.width <= rows.length; at += this.width) {
       this.skipped = (this.skipped + 1) % this.every;
       if (this.skipped !== 0) continue;
       if (this.count === this.most) this.thin();
-      const from = this.count * this.width;
-      if (from + this.width > this.numbers.length) {
-        const larger = new Float64Array(2 * this.numbers.length + this.width);
-        larger.set(this.numbers);
-        this.numbers = larger;
-      }
-      this.numbers.set(rows.subarray(at, at + this.width), from);
+      if (this.count === this.room) this.enlarge();
+      for (let column = 0; column < this.width; ++column) this.numbers[column * this.room + this.count] = rows[at + column]!;
       ++this.count;
     }
   }
 
   at(row: number, column: number): number {
-    return this.numbers[row * this.width + column]!;
+    return this.numbers[column * this.room + row]!;
   }
-
+  /// A column as it is now: a view of memory, valid until the next append.
   column(column: number): Float64Array {
-    const all = new Float64Array(this.count);
-    for (let row = 0; row < this.count; ++row) all[row] = this.at(row, column);
-    return all;
+    return this.numbers.subarray(column * this.room, column * this.room + this.count);
   }
 
+  private enlarge(): void {
+    const larger = new Float64Array(2 * this.room * this.width);
+    for (let column = 0; column < this.width; ++column) larger.set(this.column(column), column * 2 * this.room);
+    this.numbers = larger;
+    this.room *= 2;
+  }
   private thin(): void {
     const kept = Math.ceil(this.count / 2);
-    for (let row = 0; row < kept; ++row) {
-      this.numbers.copyWithin(row * this.width, 2 * row * this.width, (2 * row + 1) * this.width);
+    for (let column = 0; column < this.width; ++column) {
+      const numbers = this.column(column);
+      for (let row = 0; row < kept; ++row) numbers[row] = numbers[2 * row]!;
     }
     this.count = kept;
     this.every *= 2;

@@ -1,183 +1,194 @@
 // A Poincare section. A click is a start of the energy of the motion; its points come from workers of their own.
-import { Engine, EngineError } from "../engine/engine";
-import type { Facts } from "../engine/protocol";
-import { color_of, draw_plane, type Curve, type Frame, type Range, type Shown } from "./plane";
+import { range_of } from "../drawing/layout";
+import { color_of, draw_plane, usual_frame, type Curve, type Frame, type Range, type Shown } from "../drawing/plane";
+import { plane_as_svg } from "../drawing/svg";
+import type { Engine } from "../engine/engine";
+import { csv_of, save_text } from "../export";
+import type { Laboratory } from "../laboratory";
+import { made, text_of } from "../page/dom";
+import { axes_of, type SectionAxes } from "../state/section_axes";
+import type { MakeView, View } from "../view";
 
 const points_of_a_start = 2000;
-const most_workers = 4;
 
 interface Orbit {
-  color: string;
-  points: number[]; // x and y of each
+  color: string; // empty: the motion itself
+  points: number[]; // t, x and y of each
 }
 
-/// The axes of a section, and the start that belongs to a point of it.
-export interface SectionAxes {
-  x: number; // columns of a point: t, then all q, then all p
-  y: number;
-  x_name: string;
-  y_name: string;
-  /// PATH=VALUE
-  start(x: number, y: number): string;
-}
-
-/// null: a click would not determine a start.
-export function axes_of(facts: Facts, energy: number): SectionAxes | null {
-  const section = facts.section;
-  const n = facts.q.length;
-  if (section === null) return null;
-  if (n === 1 && !section.is_plane) {
-    return { x: 1, y: 2, x_name: facts.q[0]!, y_name: facts.p[0]!, start: (x, y) => `problem.initial={ q = [${x}], p = [${y}] }` };
-  }
-  if (n !== 2 || !section.is_plane || section.momentum) return null;
-  const fixed = section.coordinate;
-  const other = 1 - fixed;
-  const pair = (at_fixed: string | number, at_other: number): string => (fixed === 0 ? `${at_fixed}, ${at_other}` : `${at_other}, ${at_fixed}`);
-  const root = section.direction < 0 ? '"-"' : '"+"';
-  return {
-    x: 1 + other,
-    y: 3 + other,
-    x_name: facts.q[other]!,
-    y_name: facts.p[other]!,
-    start: (x, y) => `problem.initial={ q = [${pair(section.value, x)}], p = [${pair(root, y)}], energy = ${energy} }`,
-  };
-}
-
-export class SectionView {
+class Section implements View {
+  place = "stage" as const;
+  order = 20;
+  root = made(`<figure id="section-figure" hidden>
+    <figcaption>Section: click for a start of the same energy, turn the wheel to zoom</figcaption>
+    <canvas id="section" role="img" aria-label="Section"></canvas>
+    <div class="row" role="group" aria-label="Section">
+      <label><span id="section-x-name"></span> <input id="section-x" size="7" inputmode="decimal"></label>
+      <label><span id="section-y-name"></span> <input id="section-y" size="7" inputmode="decimal"></label>
+      <button id="section-add" type="button">Add a start</button>
+      <button id="section-in" type="button">Zoom in</button>
+      <button id="section-all" type="button">Show all</button>
+      <button id="section-clear" type="button">Clear</button>
+      <button id="section-csv" type="button">section.csv</button>
+      <button id="section-svg" type="button">section.svg</button>
+      <output id="section-count"></output>
+    </div></figure>`);
+  private readonly canvas = this.root.querySelector("canvas")!;
   private axes: SectionAxes | null = null;
-  private toml = "";
   private orbits: Orbit[] = [];
-  private own: Orbit = { color: "", points: [] }; // of the motion itself
-  private own_taken = 0;
+  private own: Orbit = { color: "", points: [] };
+  private own_taken = 0; // numbers of the points of the motion that are in `own`
   private range: Range | null = null;
   private shown: Shown | undefined;
   private generation = 0; // requests of an earlier scenario end when it changes
-  private readonly workers: { engine: Engine; busy: boolean }[] = [];
-  private readonly waiting: { orbit: Orbit; set: string }[] = [];
   private width = 0;
-  turns = false; // draw angles modulo a turn
+  private toml = "";
+  private counted_at = 0;
 
-  constructor(
-    private readonly canvas: HTMLCanvasElement,
-    private readonly complain: (error: unknown) => void,
-  ) {
-    canvas.addEventListener("click", (event) => {
-      const [x, y] = this.place(event);
+  constructor(private readonly laboratory: Laboratory) {
+    this.canvas.addEventListener("click", (event) => {
+      const [x, y] = this.place_of(event);
       this.range ??= this.shown?.range ?? null; // the axes stay under the pointer
       this.add(x, y);
     });
-    canvas.addEventListener("wheel", (event) => {
+    this.canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.zoom(event.deltaY < 0 ? 0.8 : 1.25, this.place(event));
+      this.zoom(event.deltaY < 0 ? 0.8 : 1.25, this.place_of(event));
     }, { passive: false });
-    new ResizeObserver(() => this.draw()).observe(canvas);
+    new ResizeObserver(() => this.ask_to_draw()).observe(this.canvas);
+    const button = (id: string): HTMLButtonElement => this.root.querySelector(`#section-${id}`)!;
+    button("add").onclick = () => {
+      const [x, y] = ["x", "y"].map((id) => Number(this.root.querySelector<HTMLInputElement>(`#section-${id}`)!.value)) as [number, number];
+      this.add(x, y);
+    };
+    button("in").onclick = () => this.zoom(0.7);
+    button("all").onclick = () => {
+      this.range = null;
+      this.ask_to_draw();
+    };
+    button("clear").onclick = () => this.clear();
+    button("svg").onclick = () => save_text("section.svg", plane_as_svg(this.curves(), this.frame()), "image/svg+xml");
+    button("csv").onclick = () => this.save_csv();
   }
 
-  open(toml: string, facts: Facts, energy: number): void {
-    ++this.generation;
-    this.waiting.length = 0;
-    this.toml = toml;
-    this.axes = axes_of(facts, energy);
-    this.width = 1 + 2 * facts.q.length;
-    this.orbits = [];
+  opened(): void {
+    this.clear();
+    const { recorded } = this.laboratory;
     this.own = { color: "", points: [] };
     this.own_taken = 0;
     this.range = null;
-    this.draw();
-  }
-  get is_open(): boolean {
-    return this.axes !== null;
-  }
-  /// The number of points so far.
-  get count(): number {
-    return [this.own, ...this.orbits].reduce((sum, orbit) => sum + orbit.points.length / 2, 0);
-  }
-  /// Takes the points that a motion has found since the last call.
-  take(points: number[]): void {
-    if (this.axes === null || points.length === this.own_taken) return;
-    this.append(this.own, points.slice(this.own_taken));
-    this.own_taken = points.length;
-    this.draw();
+    this.toml = this.laboratory.toml;
+    this.axes = null;
+    if (recorded === null) {
+      const { facts, state } = this.laboratory.first;
+      this.axes = axes_of(facts, state.energy.initial);
+      this.width = 1 + 2 * facts.q.length;
+    }
+    this.root.hidden = this.axes === null;
+    text_of(this.root, "#section-x-name", this.axes?.x_name ?? "");
+    text_of(this.root, "#section-y-name", this.axes?.y_name ?? "");
   }
 
-  /// Adds a start at this point of the section.
-  add(x: number, y: number): void {
-    if (this.axes === null) return;
-    const orbit: Orbit = { color: `hsl(${(this.orbits.length * 137.5) % 360} 70% ${color_of("--section-lightness")})`, points: [] };
-    this.orbits.push(orbit);
-    this.waiting.push({ orbit, set: this.axes.start(x, y) });
-    const count = Math.min(navigator.hardwareConcurrency || 1, most_workers);
-    if (this.workers.every((each) => each.busy) && this.workers.length < count) this.workers.push({ engine: new Engine(), busy: false });
-    for (const worker of this.workers) if (!worker.busy) void this.work(worker);
+  private ask_to_draw(): void {
+    this.laboratory.changed = true;
   }
-  clear(): void {
-    ++this.generation;
-    this.waiting.length = 0;
-    this.orbits = [];
-    this.draw();
+  private place_of(event: MouseEvent): [number, number] {
+    return this.shown?.at(event.offsetX, event.offsetY) ?? [0, 0];
   }
-  zoom(factor: number, at?: [number, number]): void {
+  private zoom(factor: number, at?: [number, number]): void {
     if (this.shown === undefined) return;
     const { x0, x1, y0, y1 } = this.shown.range;
     const [x, y] = at ?? [(x0 + x1) / 2, (y0 + y1) / 2];
     this.range = { x0: x + (x0 - x) * factor, x1: x + (x1 - x) * factor, y0: y + (y0 - y) * factor, y1: y + (y1 - y) * factor };
-    this.draw();
-  }
-  show_all(): void {
-    this.range = null;
-    this.draw();
+    this.ask_to_draw();
   }
 
-  private place(event: MouseEvent): [number, number] {
-    return this.shown?.at(event.offsetX, event.offsetY) ?? [0, 0];
+  /// Adds a start at this point of the section.
+  private add(x: number, y: number): void {
+    if (this.axes === null) return;
+    const orbit: Orbit = { color: `hsl(${(this.orbits.length * 137.5) % 360} 70% ${color_of("--section-lightness")})`, points: [] };
+    this.orbits.push(orbit);
+    const set = this.axes.start(x, y);
+    const { generation } = this;
+    const is_wanted = (): boolean => generation === this.generation;
+    this.laboratory.pool.run((engine) => this.integrate(engine, orbit, set, is_wanted)).catch((error: unknown) => is_wanted() && this.laboratory.complain(error));
+  }
+  private clear(): void {
+    ++this.generation;
+    this.orbits = [];
+    this.ask_to_draw();
   }
 
   private append(orbit: Orbit, points: ArrayLike<number>): void {
-    const within = (value: number): number => (this.turns ? value - 2 * Math.PI * Math.floor((value + Math.PI) / (2 * Math.PI)) : value);
+    const is_turned = this.laboratory.display.turns;
+    const within = (value: number): number => (is_turned ? value - 2 * Math.PI * Math.floor((value + Math.PI) / (2 * Math.PI)) : value);
     for (let at = 0; at + this.width <= points.length; at += this.width) {
-      orbit.points.push(within(points[at + this.axes!.x]!), within(points[at + this.axes!.y]!));
+      orbit.points.push(points[at]!, within(points[at + this.axes!.x]!), within(points[at + this.axes!.y]!));
     }
   }
 
-  private async work(worker: { engine: Engine; busy: boolean }): Promise<void> {
-    worker.busy = true;
-    for (let next = this.waiting.shift(); next !== undefined; next = this.waiting.shift()) {
-      const generation = this.generation;
-      try {
-        await worker.engine.call("open", 0, this.toml, next.set);
-        let steps = 1000;
-        while (generation === this.generation && next.orbit.points.length < 2 * points_of_a_start) {
-          const before = performance.now();
-          const answer = await worker.engine.call("advance", 0, steps, steps);
-          if (generation !== this.generation) break;
-          this.append(next.orbit, answer.points);
-          next.orbit.points.length = Math.min(next.orbit.points.length, 2 * points_of_a_start);
-          this.draw();
-          if (answer.value.failed) throw new Error(answer.value.message);
-          if (performance.now() - before < 40) steps *= 2;
-          if (next.orbit.points.length === 0 && answer.value.step > 1e7) break; // it does not return
-        }
-      } catch (error) {
-        if (generation === this.generation) this.complain(error instanceof EngineError ? error : String(error));
-      }
+  private async integrate(engine: Engine, orbit: Orbit, set: string, is_wanted: () => boolean): Promise<void> {
+    if (!is_wanted()) return;
+    await engine.call("open", 0, this.toml, set);
+    let steps = 1000;
+    while (is_wanted() && orbit.points.length < 3 * points_of_a_start) {
+      const before = performance.now();
+      const answer = await engine.call("advance", 0, steps, steps);
+      if (!is_wanted()) return;
+      this.append(orbit, answer.points);
+      orbit.points.length = Math.min(orbit.points.length, 3 * points_of_a_start);
+      this.ask_to_draw();
+      if (answer.value.failed) throw new Error(answer.value.message);
+      if (performance.now() - before < 40) steps *= 2;
+      if (orbit.points.length === 0 && answer.value.step > 1e7) return; // it does not come back to the section
     }
-    worker.busy = false;
   }
 
-  curves(): Curve[] {
-    return [this.own, ...this.orbits].map((orbit) => ({
-      x: Float64Array.from({ length: orbit.points.length / 2 }, (_, i) => orbit.points[2 * i]!),
-      y: Float64Array.from({ length: orbit.points.length / 2 }, (_, i) => orbit.points[2 * i + 1]!),
-      color: orbit.color || color_of("--first"),
-      kind: "points",
-      radius: 0,
-      mark: -1,
-    }));
+  private curves(): Curve[] {
+    const { marked, tracks } = this.laboratory;
+    const until = marked < 0 ? Infinity : tracks[0]!.rows.at(this.laboratory.row(tracks[0]!), 0);
+    return [this.own, ...this.orbits].map((orbit) => {
+      const count = orbit.points.length / 3;
+      const part = (k: number): Float64Array => Float64Array.from({ length: count }, (_, i) => orbit.points[3 * i + k]!);
+      const times = part(0);
+      const later = orbit.color === "" && until < Infinity ? times.findIndex((time) => Math.abs(time) > Math.abs(until)) : -1;
+      const mark = orbit.color === "" && marked >= 0 && count > 0 ? (later < 0 ? count - 1 : Math.max(0, later - 1)) : -1;
+      return { x: part(1), y: part(2), color: orbit.color || color_of("--first"), kind: "points", radius: 0, mark };
+    });
   }
-  frame(): Frame {
-    return { x_name: this.axes?.x_name ?? "", y_name: this.axes?.y_name ?? "", equal: false, walls: [], range: this.range };
+  private frame(): Frame {
+    return { ...usual_frame, x_name: this.axes?.x_name ?? "", y_name: this.axes?.y_name ?? "", range: this.range };
   }
+
   draw(): void {
-    if (this.axes !== null && this.canvas.clientWidth > 0) this.shown = draw_plane(this.canvas, this.curves(), this.frame());
+    if (this.axes === null || this.canvas.clientWidth === 0) return;
+    const { points } = this.laboratory.first;
+    if (points.length > this.own_taken) {
+      this.append(this.own, points.slice(this.own_taken));
+      this.own_taken = points.length;
+    }
+    const curves = this.curves();
+    const frame = this.frame();
+    this.shown = draw_plane(this.canvas, curves, { ...frame, range: frame.range ?? this.usual_range(curves) });
+    const now = performance.now();
+    if (now - this.counted_at < 100) return void (this.laboratory.changed = true); // for the last count, and readers of the screen
+    this.counted_at = now;
+    text_of(this.root, "#section-count", `${curves.reduce((sum, curve) => sum + curve.x.length, 0)} points`);
+  }
+
+  /// Wide enough for the whole motion, so that there is room for clicks before it has points of its own.
+  private usual_range(curves: Curve[]): Range {
+    const { first, display } = this.laboratory;
+    const whole = { x: first.recording.column(this.axes!.x), y: first.recording.column(this.axes!.y) };
+    if (display.turns) whole.x = Float64Array.of(-Math.PI, Math.PI);
+    return range_of([...curves, whole], this.frame());
+  }
+
+  private save_csv(): void {
+    const rows = [this.own, ...this.orbits].flatMap(({ points }, start) =>
+      Array.from({ length: points.length / 3 }, (_, i) => [start, points[3 * i]!, points[3 * i + 1]!, points[3 * i + 2]!]));
+    save_text("section.csv", csv_of(["start", "t", this.frame().x_name, this.frame().y_name], rows), "text/csv");
   }
 }
+
+export const make: MakeView = (laboratory) => new Section(laboratory);

@@ -1,0 +1,193 @@
+// A plane with axes on a canvas: orbits, particles, sections and maps.
+import { layout, marks, short, type Box, type Layout, type Range } from "./layout";
+
+export { short } from "./layout";
+export type { Range } from "./layout";
+
+export interface Curve {
+  x: Float64Array;
+  y: Float64Array;
+  color: string;
+  kind: "line" | "points" | "discs";
+  radius: number; // of discs, in units of the axes; 0: a small disc
+  mark: number; // the row that is shown; later ones are faint; -1: all are shown
+}
+
+export interface Frame {
+  x_name: string;
+  y_name: string;
+  equal: boolean; // one unit has the same length on both axes
+  walls: { axis: "x" | "y"; value: number; side: -1 | 1 }[]; // side: where the forbidden half is
+  circle: number; // radius of a round wall about the origin; 0: there is none
+  box: Box | null; // of a periodic box
+  start: [number, number] | null; // a handle that can be dragged
+  range: Range | null; // null: that of the curves and walls
+}
+
+export const usual_frame: Frame = { x_name: "", y_name: "", equal: false, walls: [], circle: 0, box: null, start: null, range: null };
+
+export const most_drawn = 20_000; // rows of a curve that are drawn; of more, every n-th
+
+const few_points = 300; // fewer are drawn larger
+
+/// The color of a name of style.css.
+export function color_of(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+/// What a canvas shows, to find the place of the pointer.
+export interface Shown {
+  range: Range;
+  at(px: number, py: number): [number, number];
+  px(x: number): number;
+  py(y: number): number;
+}
+
+export function prepared(canvas: HTMLCanvasElement): { pen: CanvasRenderingContext2D; width: number; height: number } {
+  const ratio = window.devicePixelRatio || 1;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const pen = canvas.getContext("2d")!;
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.fillStyle = color_of("--paper"); // so that an exported picture has a background
+  pen.fillRect(0, 0, width, height);
+  pen.font = "12px system-ui, sans-serif";
+  pen.lineWidth = 1;
+  return { pen, width, height };
+}
+
+export function draw_axes(pen: CanvasRenderingContext2D, { range, left, top, wide, high, px, py }: Layout, frame: Frame): void {
+  pen.strokeStyle = color_of("--line");
+  pen.fillStyle = color_of("--faint");
+  pen.textAlign = "center";
+  pen.textBaseline = "top";
+  for (const mark of marks(range.x0, range.x1, Math.max(2, wide / 90))) {
+    pen.fillRect(px(mark), top + high, 1, 4);
+    pen.fillText(short(mark), px(mark), top + high + 6);
+  }
+  pen.textAlign = "right";
+  pen.textBaseline = "middle";
+  for (const mark of marks(range.y0, range.y1, Math.max(2, high / 60))) {
+    pen.fillRect(left - 4, py(mark), 4, 1);
+    pen.fillText(short(mark), left - 7, py(mark));
+  }
+  pen.strokeRect(left, top, wide, high);
+  pen.fillStyle = color_of("--ink");
+  pen.textAlign = "center";
+  pen.textBaseline = "bottom";
+  pen.fillText(frame.x_name, left + wide / 2, top + high + 38);
+  pen.save();
+  pen.translate(12, top + high / 2);
+  pen.rotate(-Math.PI / 2);
+  pen.textBaseline = "middle";
+  pen.fillText(frame.y_name, 0, 0);
+  pen.restore();
+}
+
+/// A wall is a line with hatching on its forbidden side.
+function draw_walls(pen: CanvasRenderingContext2D, { px, py, range }: Layout, frame: Frame): void {
+  pen.fillStyle = pen.strokeStyle = color_of("--ink");
+  pen.lineWidth = 2;
+  if (frame.circle > 0) {
+    pen.beginPath();
+    pen.ellipse(px(0), py(0), px(frame.circle) - px(0), py(0) - py(frame.circle), 0, 0, 2 * Math.PI);
+    pen.stroke();
+  }
+  if (frame.box !== null) {
+    const { x0, y0, x1, y1 } = frame.box;
+    pen.setLineDash([6, 4]);
+    pen.strokeRect(px(x0), py(y1), px(x1) - px(x0), py(y0) - py(y1));
+    pen.setLineDash([]);
+  }
+  pen.lineWidth = 1;
+  // Walls on both axes make a corner: the other axis bounds each of them.
+  const within = (axis: "x" | "y", least: number, most: number): [number, number] => {
+    const places = frame.walls.filter((each) => each.axis === axis);
+    const low = places.find((each) => each.side < 0)?.value ?? least;
+    const high = places.find((each) => each.side > 0)?.value ?? most;
+    return [Math.max(low, least), Math.min(high, most)];
+  };
+  for (const wall of frame.walls) {
+    pen.beginPath();
+    if (wall.axis === "x") {
+      const at = px(wall.value);
+      const [low, most] = within("y", range.y0, range.y1);
+      pen.fillRect(at - 1, py(most), 2, py(low) - py(most));
+      for (let y = py(most); y < py(low); y += 8) { pen.moveTo(at, y); pen.lineTo(at + 7 * wall.side, y + 7); }
+    } else {
+      const at = py(wall.value);
+      const [low, most] = within("x", range.x0, range.x1);
+      pen.fillRect(px(low), at - 1, px(most) - px(low), 2);
+      for (let x = px(low); x < px(most); x += 8) { pen.moveTo(x, at); pen.lineTo(x + 7, at - 7 * wall.side); }
+    }
+    pen.stroke();
+  }
+}
+
+function draw_line(pen: CanvasRenderingContext2D, curve: Curve, from: number, to: number, { px, py }: Layout): void {
+  const every = Math.max(1, Math.ceil((to - from) / most_drawn));
+  pen.beginPath();
+  for (let i = from; i < to; i += every) pen.lineTo(px(curve.x[i]!), py(curve.y[i]!));
+  pen.stroke();
+}
+function draw_points(pen: CanvasRenderingContext2D, curve: Curve, from: number, to: number, { px, py }: Layout): void {
+  const every = Math.max(1, Math.ceil((to - from) / most_drawn));
+  const size = curve.x.length < few_points ? 3 : 1.4;
+  for (let i = from; i < to; i += every) pen.fillRect(px(curve.x[i]!) - size / 2, py(curve.y[i]!) - size / 2, size, size);
+}
+function draw_discs(pen: CanvasRenderingContext2D, curve: Curve, { px, py }: Layout): void {
+  const radius = Math.max(2, px(curve.radius) - px(0));
+  pen.beginPath();
+  for (let i = 0; i < curve.x.length; ++i) {
+    pen.moveTo(px(curve.x[i]!) + radius, py(curve.y[i]!));
+    pen.arc(px(curve.x[i]!), py(curve.y[i]!), radius, 0, 2 * Math.PI);
+  }
+  pen.fill();
+}
+
+function draw_curve(pen: CanvasRenderingContext2D, curve: Curve, place: Layout): void {
+  pen.strokeStyle = pen.fillStyle = curve.color;
+  pen.lineWidth = 1.2;
+  if (curve.kind === "discs") return draw_discs(pen, curve, place);
+  const draw = curve.kind === "line" ? draw_line : draw_points;
+  const last = curve.x.length - 1;
+  const shown = curve.mark >= 0 ? Math.min(curve.mark, last) : last;
+  if (shown < last) {
+    pen.globalAlpha = 0.25;
+    draw(pen, curve, shown, last + 1, place);
+    pen.globalAlpha = 1;
+  }
+  draw(pen, curve, 0, shown + 1, place);
+  if (curve.mark < 0) return;
+  pen.beginPath();
+  pen.arc(place.px(curve.x[shown]!), place.py(curve.y[shown]!), 5, 0, 2 * Math.PI);
+  pen.fill();
+}
+
+export function draw_plane(canvas: HTMLCanvasElement, curves: Curve[], frame: Frame): Shown {
+  const { pen, width, height } = prepared(canvas);
+  const place = layout(curves, frame, width, height);
+  draw_axes(pen, place, frame);
+  const { left, top, wide, high, range, px, py } = place;
+  pen.save();
+  pen.beginPath();
+  pen.rect(left, top, wide, high);
+  pen.clip();
+  draw_walls(pen, place, frame);
+  for (const curve of curves) draw_curve(pen, curve, place);
+  if (frame.start !== null) {
+    pen.strokeStyle = color_of("--ink");
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    pen.arc(px(frame.start[0]), py(frame.start[1]), 8, 0, 2 * Math.PI);
+    pen.stroke();
+  }
+  pen.restore();
+  return {
+    range, px, py,
+    at: (x, y) => [range.x0 + ((x - left) / wide) * (range.x1 - range.x0), range.y1 - ((y - top) / high) * (range.y1 - range.y0)],
+  };
+}
