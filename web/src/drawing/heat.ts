@@ -1,6 +1,6 @@
 // A map of numbers in colors, with axes and a scale.
 import { layout, marks, short, type Range } from "./layout";
-import { color_of, draw_axes, prepared, usual_frame, type Shown } from "./plane";
+import { color_of, draw_axes, frame_of, prepared, type Shown } from "./plane";
 
 export interface Heat {
   columns: number;
@@ -101,7 +101,7 @@ export function draw_heat(canvas: HTMLCanvasElement, heat: Heat, cross: [number,
   const { x0, x1, y0, y1 } = heat.range;
   const [half_x, half_y] = [(x1 - x0) / (heat.columns - 1) / 2, (y1 - y0) / (heat.rows - 1) / 2];
   const edges = { x0: x0 - half_x, x1: x1 + half_x, y0: y0 - half_y, y1: y1 + half_y };
-  const frame = { ...usual_frame, x_name: heat.x_name, y_name: heat.y_name, range: edges };
+  const frame = { ...frame_of(heat.x_name, heat.y_name), range: edges };
   const place = layout([], frame, width, height, scale_width + 10);
   const { left, top, wide, high, px, py } = place;
   const scale = scale_of(heat.values);

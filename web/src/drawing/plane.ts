@@ -24,7 +24,10 @@ export interface Frame {
   range: Range | null; // null: that of the curves and walls
 }
 
-export const usual_frame: Frame = { x_name: "", y_name: "", equal: false, walls: [], circle: 0, box: null, start: null, range: null };
+/// A frame without walls, with names for its axes.
+export function frame_of(x_name: string, y_name: string): Frame {
+  return { x_name, y_name, equal: false, walls: [], circle: 0, box: null, start: null, range: null };
+}
 
 export const most_drawn = 20_000; // rows of a curve that are drawn; of more, every n-th
 

@@ -50,8 +50,8 @@ export class Plot {
   }
 
   private range(least: number | null, most: number | null): [number, number] {
-    const found = widened(extent([least ?? NaN, most ?? NaN]) ?? [-1, 1]);
-    const wide: [number, number] = [Math.min(found[0], -this.least_half || found[0]), Math.max(found[1], this.least_half || found[1])];
+    const ends = [least ?? NaN, most ?? NaN, ...(this.least_half > 0 ? [-this.least_half, this.least_half] : [])];
+    const wide = widened(extent(ends) ?? [-1, 1]);
     const room = 0.05 * (wide[1] - wide[0]);
     return [wide[0] - room, wide[1] + room];
   }

@@ -14,8 +14,8 @@ export const make: MakeView = (laboratory) => {
     draw() {
       const { tracks, display } = laboratory;
       const { columns, rows } = tracks[0]!;
-      // Where the picture has time on its axis, it is this plot already.
-      root.hidden = display.x === columns[0] && !display.bodies;
+      // Where the picture has time on its axis, it is this plot already. Of many bodies a column says little.
+      root.hidden = display.x === columns[0] || display.bodies;
       if (root.hidden) return;
       text_of(root, "#series-title", `${label_of(display.y)} against ${columns[0]}`);
       const curves = tracks.map((track) => track.rows.column(Math.max(track.columns.indexOf(display.y), 0)));

@@ -9,6 +9,10 @@ function numbers_of(laboratory: Laboratory): [string, string][] {
   const track = laboratory.tracks[0]!;
   if (recorded !== null) return track.columns.slice(0, 40).map((name, i) => [name, short(track.rows.at(laboratory.row(track), i))]);
   const { facts, state } = motions[0]!;
+  const walls = state.walls.filter((each) => {
+    const wall = facts.walls.find(({ coordinate }) => coordinate === each.coordinate);
+    return wall === undefined || (each.side < 0 ? wall.min : wall.max) !== null;
+  });
   return [
     ...motions.flatMap((motion): [string, string][] => [
       ["method", motion.facts.method],
@@ -19,8 +23,8 @@ function numbers_of(laboratory: Laboratory): [string, string][] {
     ["arithmetic", facts.arithmetic],
     ["dt", short(facts.dt)],
     ["energy", short(state.energy.final)],
-    ...state.walls.map((each): [string, string] => [`bounces of ${facts.q[each.coordinate]} at ${each.side < 0 ? "min" : "max"}`, String(each.bounces)]),
-    ...(state.walls.length > 1 ? [["bounces together", String(state.walls.reduce((sum, each) => sum + each.bounces, 0))] as [string, string]] : []),
+    ...walls.map((each): [string, string] => [`bounces of ${facts.q[each.coordinate]} at ${each.side < 0 ? "min" : "max"}`, String(each.bounces)]),
+    ...(walls.length > 1 ? [["bounces together", String(walls.reduce((sum, each) => sum + each.bounces, 0))] as [string, string]] : []),
   ];
 }
 

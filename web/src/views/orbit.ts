@@ -1,6 +1,6 @@
 // The picture of the motion: two columns against each other, three in space, or all bodies.
 import { grown, range_of, type Range } from "../drawing/layout";
-import { color_of, draw_plane, usual_frame, type Curve, type Frame, type Shown } from "../drawing/plane";
+import { color_of, draw_plane, frame_of, type Curve, type Frame, type Shown } from "../drawing/plane";
 import { draw_space, ends_of, grown_ends, type Look, type SpaceCurve } from "../drawing/space";
 import { plane_as_svg } from "../drawing/svg";
 import { save, save_text } from "../export";
@@ -101,7 +101,7 @@ class Orbit implements View {
 
   private plane(): { curves: Curve[]; frame: Frame } {
     const { display, tracks } = this.laboratory;
-    const frame: Frame = { ...usual_frame, x_name: label_of(display.x), y_name: label_of(display.y), equal: display.equal };
+    const frame: Frame = { ...frame_of(label_of(display.x), label_of(display.y)), equal: display.equal };
     const marked = (track: Track): number => (track.joined || this.laboratory.marked >= 0 ? this.laboratory.row(track) : -1);
     const at = (track: Track, name: string): Float64Array => track.rows.column(Math.max(track.columns.indexOf(name), 0));
     if (!this.shows_bodies) {
@@ -156,7 +156,7 @@ class Orbit implements View {
     const row = this.laboratory.row(track);
     const first = columns.map(([x]) => rows.at(0, x!));
     const middle = [...first].sort((a, b) => a - b)[first.length >> 1]!;
-    const box = this.vessel({ ...usual_frame, walls: [] }).box;
+    const box = this.vessel(frame_of("", "")).box;
     const inside = (value: number, edge: number): number => (box === null ? value : value - edge * Math.round(value / edge));
     return [true, false].map((is_left): Curve => {
       const mine = columns.filter((_, i) => first[i]! < middle === is_left);

@@ -1,6 +1,6 @@
 // A Poincare section. A click is a start of the energy of the motion; its points come from workers of their own.
 import { range_of } from "../drawing/layout";
-import { color_of, draw_plane, usual_frame, type Curve, type Frame, type Range, type Shown } from "../drawing/plane";
+import { color_of, draw_plane, frame_of, type Curve, type Frame, type Range, type Shown } from "../drawing/plane";
 import { plane_as_svg } from "../drawing/svg";
 import type { Engine } from "../engine/engine";
 import { csv_of, save_text } from "../export";
@@ -10,6 +10,8 @@ import { axes_of, type SectionAxes } from "../state/section_axes";
 import type { MakeView, View } from "../view";
 
 const points_of_a_start = 2000;
+const most_steps_without_point = 1e7;
+const time_of_a_request = 60; // ms; then the picture shows more points
 
 interface Orbit {
   color: string; // empty: the motion itself
@@ -41,6 +43,7 @@ class Section implements View {
   private range: Range | null = null;
   private shown: Shown | undefined;
   private generation = 0; // requests of an earlier scenario end when it changes
+  private readonly waiting: { orbit: Orbit; set: string }[] = [];
   private width = 0;
   private toml = "";
   private counted_at = 0;
@@ -109,12 +112,13 @@ class Section implements View {
     const orbit: Orbit = { color: `hsl(${(this.orbits.length * 137.5) % 360} 70% ${color_of("--section-lightness")})`, points: [] };
     this.orbits.push(orbit);
     const set = this.axes.start(x, y);
+    this.waiting.push({ orbit, set });
     const { generation } = this;
-    const is_wanted = (): boolean => generation === this.generation;
-    this.laboratory.pool.run((engine) => this.integrate(engine, orbit, set, is_wanted)).catch((error: unknown) => is_wanted() && this.laboratory.complain(error));
+    this.laboratory.pool.run((engine) => this.integrate(engine)).catch((error: unknown) => generation === this.generation && this.laboratory.complain(error));
   }
   private clear(): void {
     ++this.generation;
+    this.waiting.length = 0;
     this.orbits = [];
     this.ask_to_draw();
   }
@@ -127,20 +131,22 @@ class Section implements View {
     }
   }
 
-  private async integrate(engine: Engine, orbit: Orbit, set: string, is_wanted: () => boolean): Promise<void> {
-    if (!is_wanted()) return;
-    await engine.call("open", 0, this.toml, set);
-    let steps = 1000;
-    while (is_wanted() && orbit.points.length < 3 * points_of_a_start) {
-      const before = performance.now();
-      const answer = await engine.call("advance", 0, steps, steps);
-      if (!is_wanted()) return;
-      this.append(orbit, answer.points);
-      orbit.points.length = Math.min(orbit.points.length, 3 * points_of_a_start);
+  /// Integrates the starts that wait, together; those of one click after the other share the cores.
+  private async integrate(engine: Engine): Promise<void> {
+    const { generation } = this;
+    const mine = this.waiting.splice(0, Math.ceil(this.waiting.length / this.laboratory.pool.most));
+    if (mine.length === 0) return; // another engine has taken it
+    await engine.call("starts", 0, this.toml, mine.map(({ set }) => set).join("\n"));
+    let ended = mine.map(() => false);
+    while (!ended.every((each) => each)) {
+      const { rows, value } = await engine.call("points_of_starts", 0, points_of_a_start, time_of_a_request);
+      if (generation !== this.generation) return;
+      for (let at = 0; at + this.width < rows.length; at += 1 + this.width) this.append(mine[rows[at]!]!.orbit, rows.subarray(at + 1, at + 1 + this.width));
       this.ask_to_draw();
-      if (answer.value.failed) throw new Error(answer.value.message);
-      if (performance.now() - before < 40) steps *= 2;
-      if (orbit.points.length === 0 && answer.value.step > 1e7) return; // it does not come back to the section
+      const failures = value.failures.filter((each, i) => each !== "" && !ended[i]);
+      if (failures.length > 0) this.laboratory.complain(failures.join("; "));
+      // A start without a point after so many steps does not come back to the section.
+      ended = mine.map((_, i) => value.failures[i] !== "" || value.counts[i]! >= points_of_a_start || (value.counts[i] === 0 && value.step > most_steps_without_point));
     }
   }
 
@@ -157,7 +163,7 @@ class Section implements View {
     });
   }
   private frame(): Frame {
-    return { ...usual_frame, x_name: this.axes?.x_name ?? "", y_name: this.axes?.y_name ?? "", range: this.range };
+    return { ...frame_of(this.axes?.x_name ?? "", this.axes?.y_name ?? ""), range: this.range };
   }
 
   draw(): void {
