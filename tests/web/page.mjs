@@ -271,7 +271,7 @@ const tests = {
     await typed(page, lattice.replace("p = [0.45, 0.1] }", "p = [0.3, 0.1] } # a comment"));
     const box = await page.locator("#orbit").boundingBox();
     // Before the motion the start is in the middle of the axes.
-    const [x, y] = [box.x + 62 + (box.width - 74) / 2, box.y + 10 + (box.height - 52) / 2];
+    const [x, y] = [box.x + 70 + (box.width - 82) / 2, box.y + 10 + (box.height - 52) / 2];
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 30, y - 20, { steps: 5 });
@@ -320,7 +320,7 @@ const tests = {
     const [png] = await Promise.all([page.waitForEvent("download"), page.locator("#map-png").click()]);
     expect(readFileSync(await png.path()).subarray(1, 4).toString() === "PNG", "map.png");
     const box = await page.locator("#map").boundingBox();
-    await page.locator("#map").click({ position: { x: 62 + (box.width - 62 - 94) / 2, y: 10 + (box.height - 52) / 2 } });
+    await page.locator("#map").click({ position: { x: 70 + (box.width - 70 - 94) / 2, y: 10 + (box.height - 52) / 2 } });
     await page.waitForFunction(() => !document.getElementById("editor").value.includes("q = [0, 0.1]"));
     expect(/q = \[-?0\.0[\d]*, 0\.[01]\d*\]/.test(await page.locator("#editor").inputValue()), `the start of the cell: ${await page.locator("#editor").inputValue()}`);
     expect(page.errors.length === 0, `no errors: ${page.errors}`);

@@ -56,6 +56,7 @@ export class Laboratory {
   private busy = false; // a request is under way
   private certified_at = 0; // time of the last certificate
   private ticked_at = 0;
+  private opened_count = 0;
 
   /// @param opened called when another scenario or recording is there   @param complain called with what went wrong
   constructor(private readonly opened: () => void, readonly complain: (error: unknown) => void) {}
@@ -77,6 +78,10 @@ export class Laboratory {
   }
   get last_step(): number {
     return this.turned_at < 0 ? this.first.facts.steps : 2 * this.turned_at;
+  }
+  /// Changes with the rows.
+  get version(): string {
+    return `${this.opened_count} ${this.tracks.map(({ rows }) => `${rows.count}/${rows.every}/${rows.width}`).join()}`;
   }
   get is_empty(): boolean {
     return this.motions.length === 0 && this.recorded === null;
@@ -119,6 +124,7 @@ export class Laboratory {
       Object.assign(this, { turned_at: -1, marked: -1, certified_at: 0, certificates: [], returned: "" });
       this.choose_usual_columns();
       await this.ask_columns();
+      ++this.opened_count;
       this.opened();
     });
   }
@@ -169,8 +175,10 @@ export class Laboratory {
     this.toml = given.toml;
     this.is_edited = false;
     const [first = "", ...others] = given.columns;
-    this.display = { ...usual_display, x: others[0] ?? first, y: others[1] ?? first };
+    const is_bodies = given.kind === "run" && ["x1", "y1", "x2", "y2"].every((name) => given.columns.includes(name));
+    this.display = { ...usual_display, x: others[0] ?? first, y: others[1] ?? first, bodies: is_bodies, equal: is_bodies };
     this.marked = rows.count - 1;
+    ++this.opened_count;
     this.opened();
     this.changed = true;
   }

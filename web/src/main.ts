@@ -108,7 +108,7 @@ async function begin(): Promise<void> {
   } else if (given.kind === "scenario") {
     open_text(given.toml);
   } else {
-    show_recorded({ given, numbers: rows_of(given) });
+    show_recorded({ given, numbers: await rows_of(given) });
   }
   const declarations = (await laboratory.engine.call("declarations")).value;
   const usual = declarations.methods.filter((each) => each.purpose !== "");

@@ -99,7 +99,7 @@ export interface Layout {
   py: (y: number) => number;
 }
 
-const left = 62;
+const left = 70;
 const bottom = 42;
 const top = 10;
 

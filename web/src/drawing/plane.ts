@@ -31,6 +31,8 @@ export function frame_of(x_name: string, y_name: string): Frame {
 
 export const most_drawn = 20_000; // rows of a curve that are drawn; of more, every n-th
 
+export const piece = 100; // segments of a path
+const longest_chord = 60; // px
 const few_points = 300; // fewer are drawn larger
 
 /// The color of a name of style.css.
@@ -131,10 +133,24 @@ function draw_walls(pen: CanvasRenderingContext2D, { px, py, range }: Layout, fr
 }
 
 function draw_line(pen: CanvasRenderingContext2D, curve: Curve, from: number, to: number, { px, py }: Layout): void {
-  const every = Math.max(1, Math.ceil((to - from) / most_drawn));
-  pen.beginPath();
-  for (let i = from; i < to; i += every) pen.lineTo(px(curve.x[i]!), py(curve.y[i]!));
-  pen.stroke();
+  // In pieces: the time of a long path that crosses itself grows with the square of its length.
+  for (let i = from; i < to - 1; i += piece) {
+    pen.beginPath();
+    for (let k = i; k <= Math.min(i + piece, to - 1); ++k) pen.lineTo(px(curve.x[k]!), py(curve.y[k]!));
+    pen.stroke();
+  }
+}
+/// Whether the rows are close enough for a line to show the path and not only chords of it.
+function is_dense({ x, y }: Curve, { px, py }: Layout): boolean {
+  if (x.length > most_drawn) return false;
+  const every = Math.max(1, Math.floor(x.length / 100));
+  let long = 0;
+  let all = 0;
+  for (let i = 1; i < x.length; i += every) {
+    ++all;
+    if (Math.hypot(px(x[i]!) - px(x[i - 1]!), py(y[i]!) - py(y[i - 1]!)) > longest_chord) ++long;
+  }
+  return long <= 0.3 * all;
 }
 function draw_points(pen: CanvasRenderingContext2D, curve: Curve, from: number, to: number, { px, py }: Layout): void {
   const every = Math.max(1, Math.ceil((to - from) / most_drawn));
@@ -155,7 +171,7 @@ function draw_curve(pen: CanvasRenderingContext2D, curve: Curve, place: Layout):
   pen.strokeStyle = pen.fillStyle = curve.color;
   pen.lineWidth = 1.2;
   if (curve.kind === "discs") return draw_discs(pen, curve, place);
-  const draw = curve.kind === "line" ? draw_line : draw_points;
+  const draw = curve.kind === "line" && is_dense(curve, place) ? draw_line : draw_points;
   const last = curve.x.length - 1;
   const shown = curve.mark >= 0 ? Math.min(curve.mark, last) : last;
   if (shown < last) {

@@ -33,6 +33,7 @@ export class Plot {
   private plot: uPlot | undefined;
   private mark = NaN;
   private x_name = "";
+  private key = "";
 
   /// @param least_half the axis shows at least this far below and above 0; 0: any range   @param clicked gets a time
   constructor(private readonly parent: HTMLElement, private readonly least_half: number, clicked: (time: number) => void) {
@@ -56,10 +57,17 @@ export class Plot {
     return [wide[0] - room, wide[1] + room];
   }
 
-  /// @param curves values over the same times, one array for each motion   @param mark a time that is marked; NaN: none
-  draw(x_name: string, times: Float64Array, curves: Float64Array[], mark: number): void {
-    const data = envelope(times, curves, Math.max(100, this.parent.clientWidth)) as unknown as uPlot.AlignedData;
+  /// @param key changes with the data   @param curves makes the values over the same times, one array for each motion
+  /// @param mark a time that is marked; NaN: none
+  draw(key: string, x_name: string, times: Float64Array, curves: () => Float64Array[], mark: number): void {
+    const is_moved = !Object.is(mark, this.mark);
     this.mark = mark;
+    if (this.plot !== undefined && key === this.key) {
+      if (is_moved) this.plot.redraw(false);
+      return;
+    }
+    this.key = key;
+    const data = envelope(times, curves(), Math.max(100, this.parent.clientWidth)) as unknown as uPlot.AlignedData;
     if (this.plot !== undefined && this.plot.series.length === data.length && this.x_name === x_name) {
       this.plot.setData(data);
       return;
@@ -75,7 +83,7 @@ export class Plot {
         height,
         scales: { x: { time: false }, y: { range: (_, least, most) => this.range(least, most) } },
         axes: [{ ...axis, label: x_name, labelSize: 16, labelFont: "12px system-ui, sans-serif", size: 28 }, { ...axis, size: 78 }],
-        series: [{}, ...curves.map((_, i) => ({ stroke: color_of(colors[i] ?? "--faint"), width: 1.2, points: { show: false } }))],
+        series: [{}, ...data.slice(1).map((_, i) => ({ stroke: color_of(colors[i] ?? "--faint"), width: 1.2, points: { show: false } }))],
         cursor: { show: false },
         legend: { show: false },
         hooks: { draw: [(plot) => this.draw_mark(plot)] },

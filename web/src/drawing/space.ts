@@ -1,6 +1,6 @@
 // Curves in space, seen from a direction that the pointer turns: an orthographic projection.
 import { extent, short, widened } from "./layout";
-import { color_of, most_drawn, prepared } from "./plane";
+import { color_of, most_drawn, piece, prepared } from "./plane";
 
 export interface SpaceCurve {
   at: [Float64Array, Float64Array, Float64Array];
@@ -74,14 +74,16 @@ export function draw_space(canvas: HTMLCanvasElement, curves: SpaceCurve[], name
     const every = Math.max(1, Math.ceil(curve.at[0].length / most_drawn));
     pen.strokeStyle = pen.fillStyle = curve.color;
     pen.lineWidth = 1.2;
-    pen.beginPath();
-    for (let row = 0; row <= curve.mark; row += every) {
-      const [x, y] = seen_row(curve, row);
-      if (curve.joined) pen.lineTo(x, y);
-      else pen.rect(x - 0.7, y - 0.7, 1.4, 1.4);
+    const is_line = curve.joined && every === 1;
+    for (let from = 0; from <= curve.mark; from += piece * every) {
+      pen.beginPath(); // in pieces, as in plane.ts
+      for (let row = from; row <= Math.min(from + piece * every, curve.mark); row += every) {
+        const [x, y] = seen_row(curve, row);
+        if (is_line) pen.lineTo(x, y);
+        else pen.fillRect(x - 0.7, y - 0.7, 1.4, 1.4);
+      }
+      if (is_line) pen.stroke();
     }
-    if (curve.joined) pen.stroke();
-    else pen.fill();
     if (curve.mark < 0) continue;
     const [x, y] = seen_row(curve, curve.mark);
     pen.beginPath();

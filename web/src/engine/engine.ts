@@ -19,10 +19,8 @@ export interface Answer<Name extends CallName> {
 export async function asset_bytes(id: string, file: string): Promise<ArrayBuffer> {
   const inlined = document.getElementById(id);
   if (inlined === null) return (await fetch(file)).arrayBuffer();
-  const text = atob(inlined.textContent!.trim());
-  const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+  const packed = await fetch(`data:application/octet-stream;base64,${inlined.textContent!.trim()}`);
+  return new Response(packed.body!.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
 let compiled: Promise<WebAssembly.Module> | undefined;

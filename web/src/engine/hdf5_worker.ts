@@ -50,7 +50,9 @@ function run_blocks(file: Hdf5File): { blocks: Block[]; rows: number } {
   const error = Float64Array.from(numbers_of(energy) as ArrayLike<number>);
   const first = error[0] ?? 0;
   // The measures of a gas are elements of H5MD, with values, steps and times.
-  const more = [...inside(file, "invariants"), ...inside(file, "observables")].filter(([path, each]) => !/\/(step|time)$|^observables\/energy\//.test(path) && is_numeric(each) && each.shape!.length === 1 && each.shape![0] === rows);
+  const invariants = inside(file, "invariants");
+  const is_there = (path: string): boolean => invariants.some(([name]) => path === `${name.replace("invariants", "observables")}/value`);
+  const more = [...invariants, ...inside(file, "observables")].filter(([path, each]) => !/\/(step|time)$|^observables\/energy\//.test(path) && !is_there(path) && is_numeric(each) && each.shape!.length === 1 && each.shape![0] === rows);
   return {
     rows,
     blocks: [
@@ -76,8 +78,9 @@ function sweep_blocks(file: Hdf5File): { blocks: Block[]; rows: number } {
 
 function read(name: string, bytes: ArrayBuffer): FileRows {
   FS!.writeFile(name, new Uint8Array(bytes));
-  const file = new Hdf5File(name, "r");
+  let file: Hdf5File | undefined;
   try {
+    file = new Hdf5File(name, "r");
     const is_run = dataset(file, "t") !== null && file.attrs["coordinates"] !== undefined;
     if (!is_run && dataset(file, "member/status") === null) throw new Error(no_file);
     const { blocks, rows } = is_run ? run_blocks(file) : sweep_blocks(file);
@@ -85,7 +88,7 @@ function read(name: string, bytes: ArrayBuffer): FileRows {
     const { columns, numbers, note } = named_row_blocks(blocks, rows);
     return { given: { kind: is_run ? "run" : "sweep", name, toml, columns, note }, numbers };
   } finally {
-    file.close();
+    file?.close();
     FS!.unlink(name);
   }
 }

@@ -2,6 +2,8 @@
 import { asset_bytes } from "../engine/engine";
 import type { FileRows } from "../engine/hdf5_worker";
 
+const most_bytes = 200e6;
+
 let worker: Promise<Worker> | undefined;
 
 async function started(): Promise<Worker> {
@@ -11,9 +13,9 @@ async function started(): Promise<Worker> {
 
 /// @throws Error with a sentence that names the file
 export async function rows_of_file(file: File): Promise<FileRows> {
+  if (file.size > most_bytes) throw new Error(`${file.name} has ${Math.round(file.size / 1e6)} MB; a page reads at most ${most_bytes / 1e6} MB: hamflow view makes a page of every n-th row`);
   worker ??= started();
-  const reader = await worker;
-  const bytes = await file.arrayBuffer();
+  const [reader, bytes] = await Promise.all([worker, file.arrayBuffer()]);
   const answer = await new Promise<FileRows | { message: string }>((resolve) => {
     reader.onmessage = (event: MessageEvent<FileRows | { message: string }>) => resolve(event.data);
     reader.postMessage({ name: file.name, bytes }, [bytes]);

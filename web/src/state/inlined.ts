@@ -15,7 +15,8 @@ export function inlined(): Inlined | null {
   return text === "" ? null : (JSON.parse(text) as Inlined);
 }
 
-export function rows_of(given: Inlined): Float64Array {
-  const bytes = Uint8Array.from(atob(given.rows), (letter) => letter.charCodeAt(0));
-  return new Float64Array(bytes.buffer);
+/// The browser decodes a data address much faster than a script does.
+export async function rows_of(given: Inlined): Promise<Float64Array> {
+  const answer = await fetch(`data:application/octet-stream;base64,${given.rows}`);
+  return new Float64Array(await answer.arrayBuffer());
 }

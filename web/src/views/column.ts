@@ -18,8 +18,8 @@ export const make: MakeView = (laboratory) => {
       root.hidden = display.x === columns[0] || display.bodies;
       if (root.hidden) return;
       text_of(root, "#series-title", `${label_of(display.y)} against ${columns[0]}`);
-      const curves = tracks.map((track) => track.rows.column(Math.max(track.columns.indexOf(display.y), 0)));
-      plot.draw(columns[0]!, rows.column(0), curves, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
+      const curves = (): Float64Array[] => tracks.map((track) => track.rows.column(Math.max(track.columns.indexOf(display.y), 0)));
+      plot.draw(`${laboratory.version} ${display.y}`, columns[0]!, rows.column(0), curves, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
     },
   };
 };

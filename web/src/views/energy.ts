@@ -19,12 +19,12 @@ export const make: MakeView = (laboratory) => {
       root.hidden = column < 0 || (recorded === null && laboratory.first.facts.map);
       if (root.hidden) return;
       text_of(root, "#energy-title", recorded === null ? "Energy error, (H - H(0)) / scale; the axis shows 1e-14 at least" : "Energy error, H - H(0)");
-      const errors = tracks.map(({ rows }, i) => {
+      const errors = (): Float64Array[] => tracks.map(({ rows }, i) => {
         const scale = recorded === null ? motions[i]!.state.energy.scale || 1 : 1;
         return rows.column(column).map((error) => error / scale);
       });
-      const times = tracks[0]!.rows;
-      plot.draw(tracks[0]!.columns[0]!, times.column(0), errors, laboratory.marked < 0 ? NaN : times.at(laboratory.row(tracks[0]!), 0));
+      const { columns, rows } = tracks[0]!;
+      plot.draw(laboratory.version, columns[0]!, rows.column(0), errors, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
     },
   };
 };

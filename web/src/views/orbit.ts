@@ -30,6 +30,7 @@ class Orbit implements View {
   private readonly canvas = this.root.querySelector("canvas")!;
   private readonly input = (id: string): HTMLInputElement => this.root.querySelector(`#${id}`)!;
   private range: Range | null = null;
+  private range_version = "";
   private ends: [number, number][] | null = null;
   private look: Look = { turn: 0.6, tilt: 0.45 };
   private shown: Shown | undefined;
@@ -192,7 +193,10 @@ class Orbit implements View {
       return;
     }
     const { curves, frame } = this.plane();
-    this.range = this.handle.is_dragged && this.range !== null ? this.range : grown(this.range, range_of(curves, frame));
+    const { version } = this.laboratory;
+    const is_kept = this.range !== null && (this.handle.is_dragged || version === this.range_version);
+    if (!is_kept) this.range = grown(this.range, range_of(curves, frame));
+    this.range_version = version;
     this.shown = draw_plane(this.canvas, curves, { ...frame, range: this.range });
   }
 
