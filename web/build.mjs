@@ -1,4 +1,4 @@
-// Bundles the page: OUT/index.html with laboratory.js, engine.wasm and hdf5.js beside it, and OUT/laboratory.html, one file.
+// Bundles the page: OUT/index.html with laboratory.js, engine.wasm, hdf5.js and hdf5.wasm beside it, and OUT/laboratory.html, one file.
 //   node build.mjs ENGINE OUT       ENGINE: the folder with engine.js and engine.wasm
 import { build } from "esbuild";
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -23,7 +23,21 @@ const made_modules = {
     into.onLoad({ filter: /.*/, namespace: "made" }, ({ path }) => ({ contents: made[path], loader: "js", resolveDir: here }));
   },
 };
-const hdf5 = await build({ ...usual, entryPoints: ["src/engine/hdf5_worker.ts"] });
+let hdf5_library;
+const without_library = {
+  name: "without-library",
+  setup(into) {
+    into.onLoad({ filter: /hdf5_util\.js$/ }, ({ path }) => {
+      const text = readFileSync(path, "utf8");
+      const bytes = /"data:application\/octet-stream;base64,([^"]{1000,})"/.exec(text);
+      const place = 'Module["wasmBinary"]';
+      if (bytes === null || text.split(place).length !== 2) throw new Error("h5wasm has another form than the version in package.json");
+      hdf5_library = Buffer.from(bytes[1], "base64");
+      return { contents: text.replace(bytes[0], () => '"hdf5.wasm"').replace(place, "self.hdf5_wasm"), loader: "js" };
+    });
+  },
+};
+const hdf5 = await build({ ...usual, entryPoints: ["src/engine/hdf5_worker.ts"], plugins: [without_library] });
 const hdf5_script = Buffer.from(hdf5.outputFiles[0].contents);
 const page = await build({ ...usual, entryPoints: ["src/main.ts"], plugins: [made_modules] });
 const script = page.outputFiles[0].text;
@@ -44,8 +58,9 @@ writeFileSync(join(out, "laboratory.js"), script);
 writeFileSync(join(out, "engine.wasm"), wasm);
 copyFileSync(join(engine, "engine.js"), join(out, "engine.js")); // for programs that run the engine without the page
 writeFileSync(join(out, "hdf5.js"), hdf5_script);
+writeFileSync(join(out, "hdf5.wasm"), hdf5_library);
 const stored = (id, bytes) => `<script type="application/octet-stream" id="${id}">${gzipSync(bytes, { level: 9 }).toString("base64")}</script>`;
-const inlined = stored("engine", wasm) + "\n" + stored("hdf5", hdf5_script);
+const inlined = stored("engine", wasm) + "\n" + stored("hdf5", hdf5_script) + "\n" + stored("hdf5-library", hdf5_library);
 const single = html(inlined, `<script>${script.replaceAll("</script", "<\\/script")}</script>`);
 writeFileSync(join(out, "laboratory.html"), single);
 const first_load = [script, style, template].reduce((sum, text) => sum + gzipSync(text, { level: 9 }).length, gzipSync(wasm, { level: 9 }).length);

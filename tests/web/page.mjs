@@ -82,8 +82,9 @@ const tests = {
     await picture(page, "1280");
     const toml = lattice.replace("0.45", "0.44");
     await page.locator("#play").click();
+    const before = page.url();
     await typed(page, toml);
-    await page.waitForFunction((before) => location.href !== before, "");
+    await page.waitForFunction((old) => location.href !== old, before);
     const address = page.url();
     const other = await opened({}, address);
     expect((await other.locator("#editor").inputValue()) === toml, "the address restores the scenario");

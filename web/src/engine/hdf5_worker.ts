@@ -1,9 +1,12 @@
 // Reads run.h5 and sweep.h5 in a worker of its own, which is loaded when the first file is dropped.
-import { File as Hdf5File, FS, Group, Dataset, ready } from "h5wasm";
+import type { Dataset, File as Hdf5File, Group } from "h5wasm";
 import type { Inlined } from "../state/inlined";
 import { named_row_blocks } from "./hdf5_columns";
 
-const scope = self as unknown as { onmessage: (event: MessageEvent<{ name: string; bytes: ArrayBuffer }>) => void; postMessage(message: unknown, transfer: Transferable[]): void };
+/// The library, which its bytes precede: the build keeps them out of the script, where they would be a third larger.
+let hdf5: typeof import("h5wasm");
+
+const scope = self as unknown as { hdf5_wasm: ArrayBuffer; onmessage: (event: MessageEvent<ArrayBuffer | { name: string; bytes: ArrayBuffer }>) => void; postMessage(message: unknown, transfer: Transferable[]): void };
 
 export interface FileRows {
   given: Omit<Inlined, "rows">;
@@ -21,15 +24,15 @@ function texts_of(file: Hdf5File, name: string): string[] {
 }
 function dataset(group: Group, path: string): Dataset | null {
   const found = group.get(path);
-  return found instanceof Dataset ? found : null;
+  return found instanceof hdf5.Dataset ? found : null;
 }
 /// The members of a group with its path; none if it is not there.
 function inside(group: Group, path: string): [string, Dataset][] {
   const found = group.get(path);
-  if (!(found instanceof Group)) return [];
+  if (!(found instanceof hdf5.Group)) return [];
   return found.keys().flatMap((key): [string, Dataset][] => {
     const each = found.get(key);
-    return each instanceof Dataset ? [[`${path}/${key}`, each]] : inside(group, `${path}/${key}`);
+    return each instanceof hdf5.Dataset ? [[`${path}/${key}`, each]] : inside(group, `${path}/${key}`);
   });
 }
 const is_numeric = (each: Dataset): boolean => /^<?>?[fdqihQIHbB]/.test(String(each.dtype));
@@ -77,10 +80,11 @@ function sweep_blocks(file: Hdf5File): { blocks: Block[]; rows: number } {
 }
 
 function read(name: string, bytes: ArrayBuffer): FileRows {
+  const { FS } = hdf5;
   FS!.writeFile(name, new Uint8Array(bytes));
   let file: Hdf5File | undefined;
   try {
-    file = new Hdf5File(name, "r");
+    file = new hdf5.File(name, "r");
     const is_run = dataset(file, "t") !== null && file.attrs["coordinates"] !== undefined;
     if (!is_run && dataset(file, "member/status") === null) throw new Error(no_file);
     const { blocks, rows } = is_run ? run_blocks(file) : sweep_blocks(file);
@@ -93,8 +97,18 @@ function read(name: string, bytes: ArrayBuffer): FileRows {
   }
 }
 
-scope.onmessage = ({ data: { name, bytes } }) => {
-  void ready.then(() => {
+async function load(): Promise<void> {
+  if (hdf5 === undefined) hdf5 = await import("h5wasm");
+  await hdf5.ready;
+}
+
+scope.onmessage = ({ data }) => {
+  if (data instanceof ArrayBuffer) {
+    scope.hdf5_wasm = data;
+    return;
+  }
+  const { name, bytes } = data;
+  void load().then(() => {
     try {
       const found = read(name, bytes);
       scope.postMessage(found, [found.numbers.buffer]);

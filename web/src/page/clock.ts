@@ -8,7 +8,7 @@ export class Clock {
   private readonly scrub = element<HTMLInputElement>("scrub");
 
   constructor(private readonly laboratory: Laboratory) {
-    element("play").onclick = () => laboratory.play();
+    element("play").onclick = () => this.play();
     element("step").onclick = () => laboratory.step();
     element("reverse").onclick = () => laboratory.reverse();
     this.speed.oninput = () => {
@@ -19,10 +19,15 @@ export class Clock {
     document.onkeydown = (event) => this.key(event);
   }
 
+  /// The button answers at once, not with the next picture.
+  private play(): void {
+    this.laboratory.play();
+    if (!this.laboratory.is_empty) this.draw();
+  }
   private key(event: KeyboardEvent): void {
     if ((event.target as HTMLElement).closest("input, textarea, select, button, summary, [role=listbox]") || event.ctrlKey || event.metaKey || event.altKey) return;
     const { laboratory } = this;
-    const action = { " ": () => laboratory.play(), ArrowRight: () => laboratory.step(), r: () => laboratory.reverse(), R: () => laboratory.reverse() }[event.key];
+    const action = { " ": () => this.play(), ArrowRight: () => laboratory.step(), r: () => laboratory.reverse(), R: () => laboratory.reverse() }[event.key];
     if (action === undefined) return;
     event.preventDefault();
     action();

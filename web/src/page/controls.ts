@@ -19,11 +19,11 @@ interface Control {
   is_whole: boolean;
 }
 
-function bounds_of(value: number, declared: Declared | undefined, scale: number): Pick<Control, "least" | "most" | "is_logarithmic" | "is_whole"> {
+function bounds_of(value: number, is_step: boolean, declared: Declared | undefined, scale: number): Pick<Control, "least" | "most" | "is_logarithmic" | "is_whole"> {
   const is_whole = declared?.whole ?? false;
-  if (declared?.least === 0 && value > 0) {
-    // A positive number without a size of its own: two decades, or three for counts.
-    const most = Math.min(value * 10, declared.most ?? Infinity);
+  if ((declared?.least === 0 || is_step) && value > 0) {
+    // A positive number without a size of its own.
+    const most = Math.min(value * 10, declared?.most ?? Infinity);
     return { least: is_whole ? 1 : value / 10, most, is_logarithmic: true, is_whole };
   }
   const half = value === 0 ? scale : Math.abs(value);
@@ -49,10 +49,10 @@ function controls_of(laboratory: Laboratory, declarations: Declarations): Contro
     const value = Number(text);
     if (text.trim() === "" || !Number.isFinite(value)) return;
     const declared = declared_key(declarations, laboratory, setting.path);
-    controls.push({ name, meaning: declared?.meaning ?? "", key: setting.path + entry, value, ...bounds_of(value, declared, scale) });
+    controls.push({ name, meaning: declared?.meaning ?? "", key: setting.path + entry, value, ...bounds_of(value, setting.path === "run.dt", declared, scale) });
   };
   const wanted = facts.settings.filter(({ path, line }) => line > 0 && /^(run\.dt|method\.|problem\.)/.test(path) && !/^problem\.(bodies|walls|masses|units|seed)/.test(path));
-  const rank = (path: string): number => (path === "run.dt" ? 0 : path.startsWith("problem.initial") ? 2 : path.startsWith("problem.") ? 1 : 3);
+  const rank = (path: string): number => (path === "run.dt" ? 0 : path === "problem.initial.q" ? 2 : path.startsWith("problem.initial") ? 3 : path.startsWith("problem.") ? 1 : 4);
   for (const setting of wanted.sort((a, b) => rank(a.path) - rank(b.path))) {
     const part = /^problem\.initial\.([qpv])$/.exec(setting.path)?.[1];
     const last = setting.path.split(".").slice(1).join(".").replace(/^(initial|parameters)\./, "");

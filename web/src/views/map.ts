@@ -6,7 +6,7 @@ import { csv_of, save, save_text } from "../export";
 import type { Laboratory } from "../laboratory";
 import { made, text_of } from "../page/dom";
 import { tasks_of, type Task } from "../state/map_order";
-import { span_of_key, toml_number, with_value } from "../state/toml_edit";
+import { entries_of, span_of_key, toml_number, with_value } from "../state/toml_edit";
 import type { MakeView, View } from "../view";
 
 const time_of_a_request = 120; // ms; then the picture shows more cells
@@ -62,7 +62,7 @@ class MapView implements View {
   constructor(private readonly laboratory: Laboratory) {
     this.field("observables").append(...Object.entries(names).map(([name, text]) => Object.assign(document.createElement("option"), { value: name, textContent: text })));
     this.field("paint").onclick = () => (this.painting !== null && this.painting.left > 0 ? this.stop() : void this.paint());
-    this.root.addEventListener("toggle", () => void this.offer_keys());
+    this.root.addEventListener("toggle", () => this.offer_keys());
     for (const axis of ["x", "y"]) this.field(axis).onchange = () => this.offer_range(axis);
     this.canvas.onclick = (event) => void this.start_cell(event);
     this.field("png").onclick = () => this.canvas.toBlob((picture) => picture && save("map.png", picture));
@@ -76,7 +76,7 @@ class MapView implements View {
     // The map stays while its own cells are started, and for the same keys.
     if (painting !== null && this.value_of(painting.x.key) === null) this.forget();
     this.place_cross();
-    void this.offer_keys();
+    this.offer_keys();
   }
   restyle(): void {
     this.changed = true;
@@ -105,16 +105,17 @@ class MapView implements View {
     return Number.isFinite(value) ? value : null;
   }
   private offered = "";
-  private async offer_keys(): Promise<void> {
+  /// The keys of the text whose values are numbers, those of the start first.
+  private offer_keys(): void {
     if (!this.root.open || this.laboratory.is_empty || this.laboratory.recorded !== null) return;
-    const { toml } = this.laboratory;
-    const all = (await this.laboratory.engine.call("sweepable", 0, toml)).value;
-    const keys = all.map((each) => each.key).filter((key) => this.value_of(key) !== null);
-    if (keys.join() === this.offered || toml !== this.laboratory.toml) return;
+    const { toml, first } = this.laboratory;
+    const settings = first.facts.settings.filter(({ path, line }) => line > 0 && path !== "run.steps");
+    const all = settings.flatMap((setting) => [setting.path, ...entries_of(toml, setting).map((_, i) => `${setting.path}[${i}]`)]);
+    const rank = (key: string): number => ["problem.initial.q", "problem.initial", "problem.", ""].findIndex((start) => key.startsWith(start));
+    const keys = all.filter((key) => this.value_of(key) !== null).sort((a, b) => rank(a) - rank(b));
+    if (keys.join() === this.offered) return;
     this.offered = keys.join();
-    const starts = keys.filter((key) => key.startsWith("problem.initial"));
-    const usual = [...starts, ...keys.filter((key) => !starts.includes(key))];
-    [["x", usual[0]], ["y", usual[1]]].forEach(([axis, chosen]) => {
+    [["x", keys[0]], ["y", keys[1]]].forEach(([axis, chosen]) => {
       this.field(axis!).replaceChildren(...keys.map((key) => new Option(key.replace(/^problem\.|^run\./, ""), key, false, key === chosen)));
       this.offer_range(axis!);
     });
