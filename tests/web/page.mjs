@@ -355,7 +355,7 @@ const tests = {
     await drop("reverse.h5", readFileSync(join(formats, "reversal/reverse.h5")));
     await page.waitForFunction(() => /reverse.h5 is no run.h5 or sweep.h5/.test(document.getElementById("complaints").textContent));
     await drop("damaged.h5", readFileSync(join(formats, "run/run.h5")).subarray(0, 3000));
-    await page.waitForFunction(() => /damaged.h5 cannot be read/.test(document.getElementById("complaints").textContent));
+    await page.waitForFunction(() => /damaged.h5 is damaged or incomplete/.test(document.getElementById("complaints").textContent));
     await drop("kepler.toml", Buffer.from(lattice));
     await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of 4000"));
     expect(page.errors.length === 0, `no errors: ${page.errors}`);
@@ -378,6 +378,7 @@ const tests = {
     const time = last_number(await text(page, "time-text"));
     expect(time > 0, `its time: ${time}`);
     await picture(page, "scrubbed");
+    await page.locator("#energy").scrollIntoViewIfNeeded();
     const energy = await page.locator("#energy .u-over").boundingBox();
     await page.mouse.click(energy.x + energy.width * 0.8, energy.y + 30);
     await page.waitForFunction((at) => Number(/t = (.*)/.exec(document.getElementById("time-text").textContent)?.[1]) > at, time);

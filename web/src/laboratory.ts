@@ -57,6 +57,7 @@ export class Laboratory {
   private certified_at = 0; // time of the last certificate
   private ticked_at = 0;
   private opened_count = 0;
+  private asked_count = 0; // of open()
 
   /// @param opened called when another scenario or recording is there   @param complain called with what went wrong
   constructor(private readonly opened: () => void, readonly complain: (error: unknown) => void) {}
@@ -78,6 +79,11 @@ export class Laboratory {
   }
   get last_step(): number {
     return this.turned_at < 0 ? this.first.facts.steps : 2 * this.turned_at;
+  }
+  /// " (AU)": a unit that the scenario names; empty: it names none.
+  unit(of: "length" | "time"): string {
+    const setting = this.recorded === null ? this.first.facts.settings.find(({ path }) => path === `problem.units.${of}`) : undefined;
+    return setting === undefined ? "" : ` (${setting.text.replace(/['"]/g, "")})`;
   }
   /// Changes with the rows.
   get version(): string {
@@ -107,14 +113,20 @@ export class Laboratory {
     await this.exclusively(work);
   }
 
-  /// Reads the scenario, and begins its motion.
-  async open(toml: string): Promise<void> {
+  /// Reads the scenario, and begins its motion. Of several calls the last one counts.
+  /// @param shown what to show, and the method beside it; default: as before
+  /// @returns whether the scenario is open
+  async open(toml: string, shown: { display?: Display; second?: string } = {}): Promise<boolean> {
+    const number = ++this.asked_count;
+    let is_open = false;
     await this.when_free(async () => {
+      if (number !== this.asked_count) return;
       this.playing = false;
       const [first, other] = this.both as [Motion, Motion];
       await first.open(toml);
       this.toml = toml;
       this.is_edited = false;
+      Object.assign(this, shown);
       this.recorded = null;
       this.motions = [first];
       if (this.second !== "") {
@@ -126,15 +138,16 @@ export class Laboratory {
       await this.ask_columns();
       ++this.opened_count;
       this.opened();
+      is_open = true;
     });
+    return is_open;
   }
 
   /// Opens a changed scenario and takes it to the step where the motion is, for at most this many milliseconds.
   async reopen(toml: string, most_time = 150): Promise<void> {
     const { playing } = this;
     const step = this.recorded === null && !this.is_empty ? this.first.state.step : 0;
-    await this.open(toml);
-    if (this.toml !== toml) return; // it has a mistake
+    if (!(await this.open(toml))) return;
     this.playing = playing;
     if (playing) return;
     const began = performance.now();

@@ -58,23 +58,21 @@ async function keep_address(): Promise<void> {
 }
 
 async function start_again(): Promise<void> {
-  if (laboratory.recorded !== null) laboratory.display = { ...usual_display };
-  await laboratory.open(editor.value);
+  await laboratory.open(editor.value, { second: second.value, ...(laboratory.recorded !== null && { display: { ...usual_display } }) });
 }
 function open_text(toml: string): void {
-  laboratory.display = { ...usual_display };
-  laboratory.second = "";
   show_lesson(null);
   editor.value = toml;
-  void laboratory.open(toml);
+  void laboratory.open(toml, { display: { ...usual_display }, second: "" });
 }
 function open_example(entry: Entry): void {
-  laboratory.display = { ...entry.display };
-  laboratory.second = entry.second;
-  laboratory.speed = 10 ** entry.speed;
   show_lesson(entry);
   editor.value = entry.toml;
-  void laboratory.open(entry.toml).then(() => is_calm || laboratory.playing || laboratory.play());
+  void laboratory.open(entry.toml, { display: { ...entry.display }, second: entry.second }).then((is_open) => {
+    if (!is_open) return;
+    laboratory.speed = 10 ** entry.speed;
+    if (!is_calm) laboratory.play();
+  });
 }
 function show_recorded({ given, numbers }: FileRows): void {
   show_lesson(null);
@@ -83,10 +81,7 @@ function show_recorded({ given, numbers }: FileRows): void {
 }
 
 element("integrate").onclick = () => void start_again();
-second.onchange = () => {
-  laboratory.second = second.value;
-  void start_again();
-};
+second.onchange = () => void start_again();
 editor.addEventListener("input", () => {
   laboratory.is_edited = editor.value !== laboratory.toml;
   element("controls").inert = laboratory.is_edited; // they change the text that runs
@@ -100,9 +95,8 @@ async function begin(): Promise<void> {
   const shared = await shared_by(location.hash);
   if (shared !== null) {
     const { toml, x, y, z, method } = shared;
-    Object.assign(laboratory, { second: method, display: { ...usual_display, x, y, z } });
     editor.value = toml;
-    await laboratory.open(toml);
+    await laboratory.open(toml, { second: method, display: { ...usual_display, x, y, z } });
   } else if (given === null) {
     open_example(gallery[0]!);
   } else if (given.kind === "scenario") {

@@ -92,14 +92,15 @@ function read(name: string, bytes: ArrayBuffer): FileRows {
     const { columns, numbers, note } = named_row_blocks(blocks, rows);
     return { given: { kind: is_run ? "run" : "sweep", name, toml, columns, note }, numbers };
   } finally {
-    file?.close();
+    if (file !== undefined && file.file_id > 0n) file.close();
     FS!.unlink(name);
   }
 }
 
 async function load(): Promise<void> {
   if (hdf5 === undefined) hdf5 = await import("h5wasm");
-  await hdf5.ready;
+  const library = await hdf5.ready;
+  library.activate_throwing_error_handler(); // instead of text on the console
 }
 
 scope.onmessage = ({ data }) => {
@@ -113,7 +114,8 @@ scope.onmessage = ({ data }) => {
       const found = read(name, bytes);
       scope.postMessage(found, [found.numbers.buffer]);
     } catch (error) {
-      const message = error instanceof Error && error.message === no_file ? `${name} ${no_file}` : `${name} cannot be read: ${error instanceof Error ? error.message : String(error)}`;
+      const is_other = error instanceof Error && error.message === no_file;
+      const message = `${name} ${is_other ? no_file : "is damaged or incomplete: HDF5 cannot read it"}`;
       scope.postMessage({ message }, []);
     }
   });

@@ -19,13 +19,17 @@ interface Control {
   is_whole: boolean;
 }
 
-function bounds_of(value: number, is_step: boolean, declared: Declared | undefined, scale: number): Pick<Control, "least" | "most" | "is_logarithmic" | "is_whole"> {
+function bounds_of(value: number, path: string, declared: Declared | undefined, scale: number): Pick<Control, "least" | "most" | "is_logarithmic" | "is_whole"> {
   const is_whole = declared?.whole ?? false;
+  const is_step = path === "run.dt";
+  const is_parameter = path.startsWith("problem.parameters.");
   if ((declared?.least === 0 || is_step) && value > 0) {
     // A positive number without a size of its own.
     const most = Math.min(value * 10, declared?.most ?? Infinity);
     return { least: is_whole ? 1 : value / 10, most, is_logarithmic: true, is_whole };
   }
+  // A parameter of a formula declares no range. One that is small or large, such as a ratio of masses, varies by factors.
+  if (declared === undefined && is_parameter && value > 0 && (value < 0.1 || value > 10)) return { least: value / 10, most: value * 10, is_logarithmic: true, is_whole };
   const half = value === 0 ? scale : Math.abs(value);
   return { least: Math.max(value - half, declared?.least ?? -Infinity), most: Math.min(value + half, declared?.most ?? Infinity), is_logarithmic: false, is_whole };
 }
@@ -49,7 +53,7 @@ function controls_of(laboratory: Laboratory, declarations: Declarations): Contro
     const value = Number(text);
     if (text.trim() === "" || !Number.isFinite(value)) return;
     const declared = declared_key(declarations, laboratory, setting.path);
-    controls.push({ name, meaning: declared?.meaning ?? "", key: setting.path + entry, value, ...bounds_of(value, setting.path === "run.dt", declared, scale) });
+    controls.push({ name, meaning: declared?.meaning ?? "", key: setting.path + entry, value, ...bounds_of(value, setting.path, declared, scale) });
   };
   const wanted = facts.settings.filter(({ path, line }) => line > 0 && /^(run\.dt|method\.|problem\.)/.test(path) && !/^problem\.(bodies|walls|masses|units|seed)/.test(path));
   const rank = (path: string): number => (path === "run.dt" ? 0 : path === "problem.initial.q" ? 2 : path.startsWith("problem.initial") ? 3 : path.startsWith("problem.") ? 1 : 4);
@@ -99,7 +103,7 @@ export class Controls {
     const row = made<HTMLLabelElement>(`<label class="control"><span></span><input type="range" min="0" max="${slider_steps}" step="any"><input size="8" inputmode="decimal" autocomplete="off"></label>`);
     const [slider, number] = row.querySelectorAll("input") as unknown as [HTMLInputElement, HTMLInputElement];
     row.title = control.meaning;
-    row.querySelector("span")!.textContent = control.name;
+    row.querySelector("span")!.textContent = control.name.replace(/([._])/g, "$1\u200b"); // a long name breaks there
     slider.setAttribute("aria-label", `${control.name}, slider${control.is_logarithmic ? ", logarithmic" : ""}`);
     number.setAttribute("aria-label", control.name);
     number.value = String(control.value);

@@ -21,7 +21,7 @@ export const make: MakeView = (laboratory) => {
     order: 20,
     root,
     draw() {
-      root.hidden = laboratory.recorded !== null;
+      root.hidden = laboratory.recorded !== null || (laboratory.first.facts.map && laboratory.returned === "");
       text_of(root, "#returned", laboratory.returned);
       if (shown === laboratory.certificates) return;
       shown = laboratory.certificates;

@@ -19,7 +19,7 @@ export const make: MakeView = (laboratory) => {
       if (root.hidden) return;
       text_of(root, "#series-title", `${label_of(display.y)} against ${columns[0]}`);
       const curves = (): Float64Array[] => tracks.map((track) => track.rows.column(Math.max(track.columns.indexOf(display.y), 0)));
-      plot.draw(`${laboratory.version} ${display.y}`, columns[0]!, rows.column(0), curves, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
+      plot.draw(`${laboratory.version} ${display.y}`, `${columns[0]}${laboratory.unit("time")}`, rows.column(0), curves, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
     },
   };
 };

@@ -24,7 +24,7 @@ export const make: MakeView = (laboratory) => {
         return rows.column(column).map((error) => error / scale);
       });
       const { columns, rows } = tracks[0]!;
-      plot.draw(laboratory.version, columns[0]!, rows.column(0), errors, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
+      plot.draw(laboratory.version, `${columns[0]}${laboratory.unit("time")}`, rows.column(0), errors, laboratory.marked < 0 ? NaN : rows.at(laboratory.row(tracks[0]!), 0));
     },
   };
 };

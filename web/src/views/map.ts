@@ -191,8 +191,7 @@ class MapView implements View {
     const spans = [{ key: x.key, value: value(x, at[0], heat.columns) }, { key: y.key, value: value(y, at[1], heat.rows) }]
       .map((each) => ({ ...each, span: span_of_key(toml, laboratory.first.facts.settings, each.key) }));
     for (const each of spans.sort((a, b) => (b.span?.from ?? 0) - (a.span?.from ?? 0))) if (each.span !== null) toml = with_value(toml, each.span, toml_number(each.value, 12));
-    await laboratory.open(toml);
-    if (laboratory.toml === toml) laboratory.play();
+    if (await laboratory.open(toml)) laboratory.play();
   }
   private place_cross(): void {
     const { painting } = this;

@@ -112,7 +112,8 @@ class Orbit implements View {
       return { curves, frame };
     }
     const columns = this.body_columns(tracks[0]!);
-    [frame.x_name, frame.y_name] = ["x", "y"];
+    const unit = this.laboratory.unit("length");
+    [frame.x_name, frame.y_name] = [`x${unit}`, `y${unit}`];
     if (this.is_gas) return { curves: tracks.flatMap((track) => this.gas(track, columns)), frame: this.vessel(frame) };
     const curves = tracks.flatMap((track, i) => columns.map(([x, y], body): Curve => ({ x: track.rows.column(x!), y: track.rows.column(y!), color: this.colors(i, body), kind: "line", radius: 0, mark: marked(track) })));
     return { curves, frame };
@@ -195,9 +196,16 @@ class Orbit implements View {
     const { curves, frame } = this.plane();
     const { version } = this.laboratory;
     const is_kept = this.range !== null && (this.handle.is_dragged || version === this.range_version);
-    if (!is_kept) this.range = grown(this.range, range_of(curves, frame));
+    if (!is_kept) this.range = this.range_for(curves, frame);
     this.range_version = version;
     this.shown = draw_plane(this.canvas, curves, { ...frame, range: this.range });
+  }
+
+  private range_for(curves: Curve[], frame: Frame): Range {
+    const found = grown(this.range, range_of(curves, frame));
+    const track = this.laboratory.tracks[0]!;
+    if (this.shows_bodies || this.laboratory.display.x !== track.columns[0] || track.rows.count < 2) return found;
+    return { ...found, x0: track.rows.at(0, 0), x1: track.rows.at(track.rows.count - 1, 0) }; // time has no room at its sides
   }
 
   private draw_legend(): void {

@@ -22,7 +22,7 @@ class Section implements View {
   place = "stage" as const;
   order = 20;
   root = made(`<figure id="section-figure" hidden>
-    <figcaption>Section: click for a start of the same energy, turn the wheel to zoom</figcaption>
+    <figcaption id="section-title"></figcaption>
     <canvas id="section" role="img" aria-label="Section"></canvas>
     <div class="row" role="group" aria-label="Section">
       <label><span id="section-x-name"></span> <input id="section-x" size="7" inputmode="decimal"></label>
@@ -86,6 +86,7 @@ class Section implements View {
       const { facts, state } = this.laboratory.first;
       this.axes = axes_of(facts, state.energy.initial);
       this.width = 1 + 2 * facts.q.length;
+      text_of(this.root, "#section-title", `Section: click for a start${facts.q.length > 1 ? " of the same energy" : ""}, turn the wheel to zoom`);
     }
     this.root.hidden = this.axes === null;
     text_of(this.root, "#section-x-name", this.axes?.x_name ?? "");
@@ -186,7 +187,7 @@ class Section implements View {
   private usual_range(curves: Curve[]): Range {
     const { first, display } = this.laboratory;
     const whole = { x: first.recording.column(this.axes!.x), y: first.recording.column(this.axes!.y) };
-    if (display.turns) whole.x = Float64Array.of(-Math.PI, Math.PI);
+    if (display.turns) whole.x = whole.y = Float64Array.of(-Math.PI, Math.PI);
     return range_of([...curves, whole], this.frame());
   }
 
