@@ -33,7 +33,8 @@ export interface Track {
   joined: boolean; // the rows follow each other on a curve
 }
 
-const certificate_pause = 1500; // ms while the motion plays
+const least_pause = 1500; // ms from one certificate to the next while the motion plays
+const pause_of_certificates = 25; // times what the last one took: the motion waits for it
 const numbers_a_frame = 4000; // that rows of a frame may have, more than one row: so that many columns stay fast
 
 export class Laboratory {
@@ -55,6 +56,7 @@ export class Laboratory {
   changed = true; // the views have to draw
   private busy = false; // a request is under way
   private certified_at = 0; // time of the last certificate
+  private certificate_pause = least_pause;
   private ticked_at = 0;
   private opened_count = 0;
   private asked_count = 0; // of open()
@@ -84,6 +86,10 @@ export class Laboratory {
   unit(of: "length" | "time"): string {
     const setting = this.recorded === null ? this.first.facts.settings.find(({ path }) => path === `problem.units.${of}`) : undefined;
     return setting === undefined ? "" : ` (${setting.text.replace(/['"]/g, "")})`;
+  }
+  /// Changes when rows do not only follow those before.
+  get trail_version(): string {
+    return `${this.opened_count} ${this.tracks.map(({ rows }) => `${rows.every}/${rows.width}`).join()} ${JSON.stringify(this.display)}`;
   }
   /// Changes with the rows.
   get version(): string {
@@ -133,9 +139,15 @@ export class Laboratory {
         await other.open(with_method(toml, this.second));
         this.motions = [first, other];
       }
-      Object.assign(this, { turned_at: -1, marked: -1, certified_at: 0, certificates: [], returned: "" });
+      Object.assign(this, { turned_at: -1, marked: -1, certified_at: 0, certificate_pause: least_pause, certificates: [], returned: "" });
       this.choose_usual_columns();
-      await this.ask_columns();
+      try {
+        await this.ask_columns();
+      } catch { // the columns before are not of this scenario
+        this.display = { ...usual_display };
+        this.choose_usual_columns();
+        await this.ask_columns();
+      }
       ++this.opened_count;
       this.opened();
       is_open = true;
@@ -163,6 +175,7 @@ export class Laboratory {
   private choose_usual_columns(): void {
     const { q, p } = this.first.facts;
     const { display } = this;
+    if (display.x === "" && display.y === "" && q.includes("x1") && q.includes("y2")) display.bodies = display.equal = true;
     if (display.x === "" && display.y === "" && q.length === 3 && q.join() === "x,y,z") display.z = "z";
     if (display.x === "") display.x = q[0]!;
     if (display.y === "") display.y = q[1] ?? p[0]!;
@@ -204,7 +217,7 @@ export class Laboratory {
     const ended = first.state.step >= this.last_step || first.state.failed;
     if (ended) this.playing = false;
     if (ended && this.turned_at >= 0 && !first.state.failed) await this.compare_with_start();
-    else if (ended || performance.now() - this.certified_at > certificate_pause) await this.certify();
+    else if (ended || performance.now() - this.certified_at > this.certificate_pause) await this.certify();
   }
 
   private async compare_with_start(): Promise<void> {
@@ -221,10 +234,12 @@ export class Laboratory {
   /// Judges the motions so far. After a reversal there is nothing to judge.
   private async certify(): Promise<void> {
     if (this.turned_at >= 0 || this.first.facts.map || this.motions.some((motion) => motion.state.failed || motion.state.step === 0)) return;
+    const began = performance.now();
     const all: { method: string; found: Certificate }[] = [];
     for (const motion of this.motions) all.push({ method: motion.facts.method, found: await motion.certificate() });
     this.certificates = all;
     this.certified_at = performance.now();
+    this.certificate_pause = Math.max(least_pause, pause_of_certificates * (this.certified_at - began));
   }
 
   play(): void {

@@ -20,7 +20,8 @@ export function marks(least: number, most: number, count: number): number[] {
 }
 
 export function short(x: number): string {
-  return x === 0 ? "0" : String(Number(x.toPrecision(4)));
+  if (x === 0) return "0";
+  return Math.abs(x) < 1e-4 ? String(Number(x.toExponential(3)).toExponential()) : String(Number(x.toPrecision(4)));
 }
 
 /// The least and the greatest number; nothing if there is none.
@@ -33,6 +34,11 @@ export function extent(values: Iterable<number>): [number, number] | null {
     if (value > most) most = value;
   }
   return least > most ? null : [least, most];
+}
+
+/// The same angle from -pi to pi.
+export function within_turn(angle: number): number {
+  return angle - 2 * Math.PI * Math.floor((angle + Math.PI) / (2 * Math.PI));
 }
 
 /// A range wide enough that rounding does not look like motion.

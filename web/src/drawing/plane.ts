@@ -40,6 +40,8 @@ export function color_of(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
+type Pen = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+
 /// What a canvas shows, to find the place of the pointer.
 export interface Shown {
   range: Range;
@@ -132,7 +134,7 @@ function draw_walls(pen: CanvasRenderingContext2D, { px, py, range }: Layout, fr
   }
 }
 
-function draw_line(pen: CanvasRenderingContext2D, curve: Curve, from: number, to: number, { px, py }: Layout): void {
+function draw_line(pen: Pen, curve: Curve, from: number, to: number, { px, py }: Layout): void {
   // In pieces: the time of a long path that crosses itself grows with the square of its length.
   for (let i = from; i < to - 1; i += piece) {
     pen.beginPath();
@@ -152,7 +154,7 @@ function is_dense({ x, y }: Curve, { px, py }: Layout): boolean {
   }
   return long <= 0.3 * all;
 }
-function draw_points(pen: CanvasRenderingContext2D, curve: Curve, from: number, to: number, { px, py }: Layout): void {
+function draw_points(pen: Pen, curve: Curve, from: number, to: number, { px, py }: Layout): void {
   const every = Math.max(1, Math.ceil((to - from) / most_drawn));
   const size = curve.x.length < few_points ? 3 : 1.4;
   for (let i = from; i < to; i += every) pen.fillRect(px(curve.x[i]!) - size / 2, py(curve.y[i]!) - size / 2, size, size);
@@ -167,11 +169,54 @@ function draw_discs(pen: CanvasRenderingContext2D, curve: Curve, { px, py }: Lay
   pen.fill();
 }
 
+type Draw = typeof draw_line;
+function path_of(curve: Curve, place: Layout): Draw {
+  return curve.kind === "line" && is_dense(curve, place) ? draw_line : draw_points;
+}
+
+/// What a canvas shows of curves that grow, without axes: so that each picture draws only the new rows.
+interface Trail {
+  layer: OffscreenCanvas;
+  key: string;
+  drawn: number[]; // rows of each curve
+}
+const trails = new WeakMap<HTMLCanvasElement, Trail>();
+
+/// Draws the new rows of curves whose rows all are shown, over those of the picture before.
+function draw_trails(canvas: HTMLCanvasElement, pen: CanvasRenderingContext2D, curves: Curve[], place: Layout, version: string): void {
+  const paths = curves.map((curve) => path_of(curve, place));
+  const key = JSON.stringify([version, place.range, canvas.width, canvas.height, curves.map(({ color }) => color), paths.map((path) => path === draw_line)]);
+  let trail = trails.get(canvas);
+  if (trail === undefined || trail.key !== key || curves.some((curve, i) => curve.x.length < trail!.drawn[i]!)) {
+    trail = { layer: new OffscreenCanvas(canvas.width, canvas.height), key, drawn: curves.map(() => 0) };
+    trails.set(canvas, trail);
+  }
+  const layer_pen = trail.layer.getContext("2d")!;
+  layer_pen.setTransform(pen.getTransform());
+  curves.forEach((curve, i) => {
+    layer_pen.strokeStyle = layer_pen.fillStyle = curve.color;
+    layer_pen.lineWidth = 1.2;
+    paths[i]!(layer_pen, curve, Math.max(0, trail.drawn[i]! - 1), curve.x.length, place);
+    trail.drawn[i] = curve.x.length;
+  });
+  pen.save();
+  pen.setTransform(1, 0, 0, 1, 0, 0);
+  pen.drawImage(trail.layer, 0, 0);
+  pen.restore();
+  for (const curve of curves) if (curve.mark >= 0 && curve.x.length > 0) draw_mark(pen, curve, curve.x.length - 1, place);
+}
+function draw_mark(pen: CanvasRenderingContext2D, curve: Curve, row: number, { px, py }: Layout): void {
+  pen.fillStyle = curve.color;
+  pen.beginPath();
+  pen.arc(px(curve.x[row]!), py(curve.y[row]!), 5, 0, 2 * Math.PI);
+  pen.fill();
+}
+
 function draw_curve(pen: CanvasRenderingContext2D, curve: Curve, place: Layout): void {
   pen.strokeStyle = pen.fillStyle = curve.color;
   pen.lineWidth = 1.2;
   if (curve.kind === "discs") return draw_discs(pen, curve, place);
-  const draw = curve.kind === "line" && is_dense(curve, place) ? draw_line : draw_points;
+  const draw = path_of(curve, place);
   const last = curve.x.length - 1;
   const shown = curve.mark >= 0 ? Math.min(curve.mark, last) : last;
   if (shown < last) {
@@ -180,13 +225,11 @@ function draw_curve(pen: CanvasRenderingContext2D, curve: Curve, place: Layout):
     pen.globalAlpha = 1;
   }
   draw(pen, curve, 0, shown + 1, place);
-  if (curve.mark < 0) return;
-  pen.beginPath();
-  pen.arc(place.px(curve.x[shown]!), place.py(curve.y[shown]!), 5, 0, 2 * Math.PI);
-  pen.fill();
+  if (curve.mark >= 0 && curve.x.length > 0) draw_mark(pen, curve, shown, place);
 }
 
-export function draw_plane(canvas: HTMLCanvasElement, curves: Curve[], frame: Frame): Shown {
+/// @param version stays as long as rows only follow those before; empty: draws everything anew
+export function draw_plane(canvas: HTMLCanvasElement, curves: Curve[], frame: Frame, version = ""): Shown {
   const { pen, width, height } = prepared(canvas);
   const place = layout(curves, frame, width, height);
   draw_axes(pen, place, frame);
@@ -196,7 +239,9 @@ export function draw_plane(canvas: HTMLCanvasElement, curves: Curve[], frame: Fr
   pen.rect(left, top, wide, high);
   pen.clip();
   draw_walls(pen, place, frame);
-  for (const curve of curves) draw_curve(pen, curve, place);
+  const all_shown = curves.every((curve) => curve.kind !== "discs" && (curve.mark < 0 || curve.mark >= curve.x.length - 1));
+  if (version !== "" && all_shown) draw_trails(canvas, pen, curves, place, version);
+  else for (const curve of curves) draw_curve(pen, curve, place);
   if (frame.start !== null) {
     pen.strokeStyle = color_of("--ink");
     pen.lineWidth = 1.5;

@@ -1,5 +1,5 @@
 // Curves in space, seen from a direction that the pointer turns: an orthographic projection.
-import { extent, short, widened } from "./layout";
+import { extent, marks, short, widened } from "./layout";
 import { color_of, most_drawn, piece, prepared } from "./plane";
 
 export interface SpaceCurve {
@@ -92,7 +92,7 @@ export function draw_space(canvas: HTMLCanvasElement, curves: SpaceCurve[], name
   }
 }
 
-/// Names at the middles of three edges at the bottom and in front, with numbers at their ends.
+/// Names at the middles of three edges at the bottom and at the left, with round numbers along them.
 function draw_names(pen: CanvasRenderingContext2D, seen: (point: Point) => Point, names: string[], ends: Ends): void {
   pen.textAlign = "center";
   pen.textBaseline = "middle";
@@ -111,9 +111,12 @@ function draw_names(pen: CanvasRenderingContext2D, seen: (point: Point) => Point
       return [x + (away * (from_x - middle[0])) / length, y + (away * (from_y - middle[1])) / length];
     };
     pen.fillStyle = color_of("--ink");
-    pen.fillText(names[axis]!, ...place(0, 24));
+    pen.fillText(names[axis]!, ...place(0, 38));
     pen.fillStyle = color_of("--faint");
-    pen.fillText(short(ends[axis]![0]), ...place(-0.85, 18));
-    pen.fillText(short(ends[axis]![1]), ...place(0.85, 18));
+    const [least, most] = ends[axis]!;
+    for (const mark of marks(least, most, 4)) {
+      const along = (2 * (mark - least)) / (most - least) - 1;
+      if (Math.abs(along) < 0.9) pen.fillText(short(mark), ...place(along, 16)); // at a corner two axes meet
+    }
   }
 }

@@ -8,13 +8,15 @@ export class Motion {
   state!: MotionState;
   recording!: Recording;
   points: number[] = []; // of the section: t, q and p each
-  private expressions: string[] = [];
+  private usual: string[] = []; // the columns of every motion of these coordinates
+  private all: string[] = []; // with the expressions
 
   constructor(private readonly engine: Engine, private readonly number: number) {}
 
   /// @throws EngineError with the reader's messages; then the motion before goes on
   async open(toml: string): Promise<void> {
     this.facts = (await this.engine.call("open", this.number, toml, "")).value;
+    this.usual = ["t", ...this.facts.q, ...this.facts.p, "energy error"];
     this.points = [];
     await this.show([]);
     this.state = (await this.engine.call("state", this.number)).value;
@@ -26,7 +28,7 @@ export class Motion {
     const wanted = columns.filter((each) => each !== "" && !this.names().includes(each));
     const expressions = wanted.map((each) => this.facts.observables.find(({ name }) => name === each)?.expression ?? each);
     const shown = await this.engine.call("show", this.number, expressions.join("\n"));
-    this.expressions = wanted;
+    this.all = [...this.usual, ...wanted];
     this.recording = new Recording(shown.value.width);
     this.recording.append(shown.rows);
   }
@@ -50,10 +52,10 @@ export class Motion {
 
   /// The names of the columns of every motion.
   names(): string[] {
-    return ["t", ...this.facts.q, ...this.facts.p, "energy error"];
+    return this.usual;
   }
   columns(): string[] {
-    return [...this.names(), ...this.expressions];
+    return this.all;
   }
   /// -1: there is no such column.
   column(name: string): number {

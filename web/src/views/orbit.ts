@@ -1,5 +1,5 @@
 // The picture of the motion: two columns against each other, three in space, or all bodies.
-import { grown, range_of, type Range } from "../drawing/layout";
+import { grown, range_of, within_turn, type Range } from "../drawing/layout";
 import { color_of, draw_plane, frame_of, type Curve, type Frame, type Shown } from "../drawing/plane";
 import { draw_space, ends_of, grown_ends, type Look, type SpaceCurve } from "../drawing/space";
 import { plane_as_svg } from "../drawing/svg";
@@ -31,6 +31,8 @@ class Orbit implements View {
   private readonly input = (id: string): HTMLInputElement => this.root.querySelector(`#${id}`)!;
   private range: Range | null = null;
   private range_version = "";
+  private bodies_of: string[] = []; // the columns in which `bodies` were found
+  private bodies: number[][] = [];
   private ends: [number, number][] | null = null;
   private look: Look = { turn: 0.6, tilt: 0.45 };
   private shown: Shown | undefined;
@@ -82,12 +84,16 @@ class Orbit implements View {
   }
 
   /// The columns of x, y and, if there is one, z of each body: names such as x1 and y1.
-  private body_columns(track: Track): number[][] {
-    return track.columns.flatMap((name, x) => {
+  private body_columns({ columns }: Track): number[][] {
+    if (columns === this.bodies_of) return this.bodies; // there may be thousands
+    const places = new Map(columns.map((name, i) => [name, i]));
+    this.bodies = columns.flatMap((name, x) => {
       const number = /^x(\d+)$/.exec(name)?.[1];
-      const [y, z] = [track.columns.indexOf(`y${number}`), track.columns.indexOf(`z${number}`)];
-      return number === undefined || y < 0 ? [] : [z < 0 ? [x, y] : [x, y, z]];
+      const [y, z] = [places.get(`y${number}`), places.get(`z${number}`)];
+      return number === undefined || y === undefined ? [] : [z === undefined ? [x, y] : [x, y, z]];
     });
+    this.bodies_of = columns;
+    return this.bodies;
   }
   private get shows_bodies(): boolean {
     return this.laboratory.display.bodies && this.body_columns(this.laboratory.tracks[0]!).length > 0;
@@ -108,7 +114,9 @@ class Orbit implements View {
     if (!this.shows_bodies) {
       this.add_walls(frame);
       frame.start = this.handle.place();
-      const curves = tracks.map((track, i): Curve => ({ x: at(track, display.x), y: at(track, display.y), color: this.colors(i, 0), kind: track.joined ? "line" : "points", radius: 0, mark: marked(track) }));
+      const is_turned = display.turns && display.x !== tracks[0]!.columns[0];
+      const x_of = (track: Track): Float64Array => (is_turned ? at(track, display.x).map(within_turn) : at(track, display.x));
+      const curves = tracks.map((track, i): Curve => ({ x: x_of(track), y: at(track, display.y), color: this.colors(i, 0), kind: track.joined && !is_turned ? "line" : "points", radius: 0, mark: marked(track) }));
       return { curves, frame };
     }
     const columns = this.body_columns(tracks[0]!);
@@ -198,7 +206,7 @@ class Orbit implements View {
     const is_kept = this.range !== null && (this.handle.is_dragged || version === this.range_version);
     if (!is_kept) this.range = this.range_for(curves, frame);
     this.range_version = version;
-    this.shown = draw_plane(this.canvas, curves, { ...frame, range: this.range });
+    this.shown = draw_plane(this.canvas, curves, { ...frame, range: this.range }, this.laboratory.trail_version);
   }
 
   private range_for(curves: Curve[], frame: Frame): Range {
@@ -211,13 +219,17 @@ class Orbit implements View {
   private draw_legend(): void {
     const { motions, recorded } = this.laboratory;
     const gas = this.shows_bodies && this.is_gas && this.is_plane;
-    const names = gas ? ["left half at the start", "right half"] : recorded === null && motions.length > 1 ? motions.map((motion) => motion.facts.method) : [];
+    const bodies = this.shows_bodies && !gas ? this.body_columns(this.laboratory.tracks[0]!).map((_, i) => `body ${i + 1}`) : [];
+    const names = gas ? ["left half at the start", "right half"] : recorded === null && motions.length > 1 ? motions.map((motion) => motion.facts.method) : bodies;
     const legend = this.root.querySelector<HTMLElement>("#legend")!;
     legend.hidden = names.length === 0;
     while (legend.children.length < names.length) legend.append(made("<span></span>"));
     while (legend.children.length > names.length) legend.lastChild!.remove();
     names.forEach((name, i) => {
-      if (legend.children[i]!.textContent !== name) legend.children[i]!.textContent = name;
+      const item = legend.children[i] as HTMLElement;
+      if (item.textContent !== name) item.textContent = name;
+      const color = gas ? (i === 0 ? "var(--first)" : "var(--second)") : this.colors(i, i);
+      if (item.style.getPropertyValue("--dot") !== color) item.style.setProperty("--dot", color);
     });
   }
 }

@@ -1,5 +1,5 @@
 // A Poincare section. A click is a start of the energy of the motion; its points come from workers of their own.
-import { range_of } from "../drawing/layout";
+import { range_of, within_turn } from "../drawing/layout";
 import { color_of, draw_plane, frame_of, type Curve, type Frame, type Range, type Shown } from "../drawing/plane";
 import { plane_as_svg } from "../drawing/svg";
 import type { Engine } from "../engine/engine";
@@ -126,7 +126,7 @@ class Section implements View {
 
   private append(orbit: Orbit, points: ArrayLike<number>): void {
     const is_turned = this.laboratory.display.turns;
-    const within = (value: number): number => (is_turned ? value - 2 * Math.PI * Math.floor((value + Math.PI) / (2 * Math.PI)) : value);
+    const within = is_turned ? within_turn : (value: number): number => value;
     for (let at = 0; at + this.width <= points.length; at += this.width) {
       orbit.points.push(points[at]!, within(points[at + this.axes!.x]!), within(points[at + this.axes!.y]!));
     }
