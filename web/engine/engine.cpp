@@ -328,17 +328,6 @@ EMSCRIPTEN_KEEPALIVE const double* hamflow_points(int number) { return motion(nu
 EMSCRIPTEN_KEEPALIVE int hamflow_point_count(int number) { return static_cast<int>(motion(number).points().size()); }
 EMSCRIPTEN_KEEPALIVE int hamflow_width(int number) { return static_cast<int>(motion(number).width()); }
 
-/// The names of all methods, each with its purpose.
-EMSCRIPTEN_KEEPALIVE const char* hamflow_methods(int) {
-  return guarded([]() -> Json {
-    Json all = Json::array();
-    for (const MethodEntry& each : methods()) {
-      all.push_back({{"name", each.name}, {"purpose", advice({.name = each.name}).purpose}});
-    }
-    return all;
-  });
-}
-
 /// The keys of a scenario with numbers.
 EMSCRIPTEN_KEEPALIVE const char* hamflow_sweepable(int, const char* text) {
   return guarded([&]() -> Json {
