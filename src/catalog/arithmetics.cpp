@@ -54,7 +54,8 @@ std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {
     return "the coefficients of " + spec.name + " are known here to " + std::to_string(known) +
            " digits; allowed up to mp(" + std::to_string(known) + ")";
   }
-  return arithmetic == "lattice" ? family.not_on_lattice : "";
+  if (arithmetic != "lattice" || (family.allowed_on_lattice && family.allowed_on_lattice(spec.options))) return "";
+  return family.not_on_lattice;
 }
 
 }  // namespace hamflow

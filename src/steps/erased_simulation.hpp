@@ -132,9 +132,11 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               iteration_recorder(run.functions, c, recipe.options), stage_recorder(run.functions, c, recipe.options),
               request.record));
         } else if constexpr (EncounterWatcher<decltype(method)>) {
-          if (method.has_corrector()) {
-            return std::make_unique<CorrectedSimulation<P, decltype(method), A>>(problem, method, run.q, run.p, run.h,
-                                                                                 arithmetic);
+          if constexpr (requires { method.has_corrector(); }) {
+            if (method.has_corrector()) {
+              return std::make_unique<CorrectedSimulation<P, decltype(method), A>>(problem, method, run.q, run.p, run.h,
+                                                                                   arithmetic);
+            }
           }
           return requested(
               std::make_unique<PlanetarySimulation<Parted>>(problem, method, run.q, run.p, run.h, arithmetic));

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 
+#include "engine/planetary_steps.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/run/section.hpp"
 #include "lane_run.hpp"
@@ -224,6 +225,9 @@ class Sweep::Worker {
     row.invariants = simulation->invariants();
     row.walls = simulation->wall_counts();
     row.halved = simulation->effort().halved;
+    if (const auto* const planets = dynamic_cast<const PlanetarySteps*>(simulation.get())) {
+      row.close_encounter = planets->first_encounter().has_value();
+    }
     if (watch) {
       row.events = watch->events();
       row.event_notes = watch->event_notes();

@@ -60,6 +60,7 @@ struct MemberRow {
   std::string message;                      // explains a failure, or why there is no start
   // the run finished, but its energy error is so large that the result is meaningless
   bool nonsense = false;
+  bool close_encounter = false;  // bodies came so close that a splitting into Kepler motions is inaccurate
 
   /// Name of the status in files.
   std::string status_name() const { return no_start ? "no_start" : std::string(name(status)); }
@@ -270,7 +271,11 @@ void MemberRow::archive(Archive& ar) {
     FrameDigits& all = stopped_by->digits;
     ar(stopped_by->event, stopped_by->t, stopped_by->q, stopped_by->p, all.time, all.q, all.p);
   }
-  ar(halved, section, section_digits, section_residual, section_message, message, nonsense);
+  ar(halved, section, section_digits, section_residual, section_message, message);
+  auto marks = static_cast<std::uint8_t>((nonsense ? 1 : 0) + (close_encounter ? 2 : 0));
+  ar(marks);
+  nonsense = (marks & 1) != 0;
+  close_encounter = (marks & 2) != 0;
 }
 
 }  // namespace hamflow

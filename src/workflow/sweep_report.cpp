@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "json_text.hpp"
@@ -40,19 +41,36 @@ std::vector<MemberFailure> failures_of(const Sweep& sweep) {
   return all;
 }
 
+/// How many members have a mark, and the first of them.
+struct Marked {
+  std::ptrdiff_t count = 0;
+  std::size_t first = 0;
+};
+Marked members_with(const Sweep& sweep, bool MemberRow::*mark) {
+  const auto first = std::ranges::find_if(sweep.own_rows(), mark);
+  const auto count = std::count_if(first, sweep.own_rows().end(), std::mem_fn(mark));
+  return {count, count == 0 ? 0 : sweep.own_member(static_cast<std::size_t>(first - sweep.own_rows().begin()))};
+}
+
 /// Returns the warnings for all members together. Only a run of a single member warns about a long dt or a fall into
 /// the centre.
 std::vector<Warning> sweep_warnings(const Sweep& sweep) {
-  const auto is_meaningless = [](const MemberRow& row) { return row.nonsense; };
-  const auto first = std::ranges::find_if(sweep.own_rows(), is_meaningless);
-  const auto count = std::count_if(first, sweep.own_rows().end(), is_meaningless);
-  if (count == 0) return {};
-  return {{"energy_error",
-           fmt::format(
-               "the energy error of {} of {} members is larger than the energy that the motion exchanges, first "
-               "in member {}; these results of {} are meaningless; try a smaller dt",
-               count, sweep.own_members(), sweep.own_member(static_cast<std::size_t>(first - sweep.own_rows().begin())),
-               sweep.common().request.problem)}};
+  std::vector<Warning> all;
+  if (const Marked found = members_with(sweep, &MemberRow::nonsense); found.count > 0) {
+    all.push_back(
+        {"energy_error",
+         fmt::format("the energy error of {} of {} members is larger than the energy that the motion exchanges, first "
+                     "in member {}; these results of {} are meaningless; try a smaller dt",
+                     found.count, sweep.own_members(), found.first, sweep.common().request.problem)});
+  }
+  if (const Marked found = members_with(sweep, &MemberRow::close_encounter); found.count > 0) {
+    all.push_back({"close_encounter",
+                   fmt::format("in {} of {} members, first in member {}, two bodies came within 3 Hill radii of each "
+                               "other, where {} is inaccurate; a run of that member names them; try dop853, which "
+                               "adapts its steps, or a smaller dt",
+                               found.count, sweep.own_members(), found.first, sweep.common().request.method.name)});
+  }
+  return all;
 }
 
 Named<VariedKey> varied_of(const Sweep& sweep) {

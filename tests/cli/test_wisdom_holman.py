@@ -174,9 +174,40 @@ class WisdomHolman(CommandCase):
             quiet = self.run_with(method, 400, time=40)
             self.assertEqual([w for w in quiet["warnings"] if w["kind"] == "close_encounter"], [])
 
+    def test_close_encounters_of_members_are_told(self):
+        self.write("s.toml", SYSTEM.format(method="wisdom-holman", steps=4000, mass="1e-3", time=400, arithmetic="double", options="",
+                                           more='{ name = "dust", mass = 0, a = 1.02, mean_anomaly = 3, primary = "Sun" },'))
+        done = self.hamflow("sweep", "s.toml", "--vary", "problem.bodies[3].a=4,1.02,1.021,5", "--json", "--out", "met")
+        told = [w["message"] for w in json.loads(done.stdout)["warnings"] if w["kind"] == "close_encounter"]
+        self.assertEqual(len(told), 1)
+        self.assertIn("in 2 of 4 members, first in member 1, two bodies came within 3 Hill radii", told[0])
+
     def test_it_is_reversible(self):
         s = self.run_with("saba(8,6,4)", 1000, time=100)
         self.assertEqual(s["certificate"]["reversal_distance"]["proves"], "reversible to rounding")
+
+    def test_every_bit_returns_on_the_lattice(self):
+        """In one process, and in a run that is extended; the energy error is that of the map in double."""
+        helio = "wisdom-holman(coordinates=democratic-heliocentric)"
+        in_double = self.run_with(helio, 4000, time=400)
+        on_lattice = self.run_with(helio, 4000, time=400, arithmetic="lattice")
+        self.assertIs(on_lattice["certificate"]["reversal_distance"]["bit_exact"], True)
+        # Equal but for roundings, of 2e-16 of the largest momentum, while the map itself errs by 1e-6.
+        self.assertAlmostEqual(on_lattice["energy"]["max_relative_error"] / in_double["energy"]["max_relative_error"], 1,
+                               delta=1e-5)
+        found = json.loads(self.hamflow("reverse", "s.toml", "--json").stdout)
+        self.assertIs(found["bit_exact"], True)
+        self.hamflow("run", "s.toml", "--out", "whole.run")
+        self.hamflow("run", "s.toml", "--set", "run.steps=1500", "--out", "parts.run")
+        self.hamflow("run", "s.toml", "--out", "parts.run", "--resume")
+        self.assertEqual(differences(COMPARE, self.folder / "whole.run", self.folder / "parts.run"), [])
+
+    def test_the_lattice_refuses_orbits_through_the_star(self):
+        self.write("s.toml", SYSTEM.format(method="wisdom-holman(coordinates=democratic-heliocentric)", steps=10, mass="1e-3",
+                                           time=1, arithmetic="lattice", more="", options=""))
+        done = self.hamflow("run", "s.toml", "--set", "problem.bodies[1].e=0.99999", "--out", "none", status=None)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("so near to the first one that a drift of half a step would need more than 4096 parts", done.stderr)
 
     def test_lyapunov_exponents(self):
         """The derivative of a step in Kepler drifts: two regular planets have exponents near 0."""
@@ -189,7 +220,8 @@ class WisdomHolman(CommandCase):
                                               more="", options=""))
         for sets, key, words in (
             (["problem.softening=0.1"], "problem.softening", "whose bodies move on conics; allowed 0"),
-            (['run.arithmetic="lattice"'], "run.arithmetic", "no bijections of the lattice"),
+            (['run.arithmetic="lattice"'], "run.arithmetic", 'no bijection of the lattice; coordinates = "democratic-heliocentric" are'),
+            (['run.arithmetic="lattice"', 'method.name="saba(4)"'], "run.arithmetic", "no bijection of the lattice"),
             (["problem.bodies[1].mass=2"], "method.name", "inner heavier than the first body; allowed the heaviest body first"),
             (['problem.walls=[{coordinate="x1",min=-9,max=9}]'], "problem.walls", "found walls with wisdom-holman"),
             (['method.kernel="lasy"'], "method.kernel", "did you mean lazy?"),

@@ -24,6 +24,7 @@
 #include "hamflow/methods/heliocentric.hpp"
 #include "hamflow/methods/kepler_tables.hpp"
 #include "hamflow/methods/wisdom_holman.hpp"
+#include "hamflow/methods/wisdom_holman_lattice.hpp"
 #include "hamflow/orbits/kepler_tangent.hpp"
 
 namespace hamflow {
@@ -89,7 +90,7 @@ template <class P, Arithmetic A>
 class WisdomHolmanStep {
  public:
   static_assert(GravitatingBodies<P>, "hamflow: wisdom-holman needs bodies that attract each other as points");
-  static_assert(!A::exact_undo, "hamflow: wisdom-holman is no bijection of the lattice");
+  static_assert(!A::exact_undo, "hamflow: see WisdomHolmanOnLattice");
   static constexpr std::size_t n = P::dimension;
   static constexpr bool memory_depends_on_positions_only = true;
   using Real = typename A::Real;
@@ -263,17 +264,23 @@ class WisdomHolmanStep {
 /// The recipe of wisdom-holman.
 struct WisdomHolman {
   static constexpr bool implicit = false;
-  static constexpr bool bijective = false;
+  static constexpr bool bijective = true;  // in democratic heliocentric coordinates
   static constexpr Capability capability_sets[] = {Capability::separable | Capability::quadratic_kinetic |
                                                    Capability::gravitating};
   template <class P>
   static constexpr bool accepts = GravitatingBodies<P>;
   WisdomHolmanOptions options{};
   template <class P, class A>
-  using Stepper = WisdomHolmanStep<P, A>;
+  using Stepper = std::conditional_t<A::exact_undo, WisdomHolmanOnLattice<P, A>, WisdomHolmanStep<P, A>>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
-    return Stepper<P, A>(problem, options, describe(options));
+    if constexpr (!A::exact_undo) {
+      return Stepper<P, A>(problem, options, describe(options));
+    } else if (options.coordinates == WisdomHolmanCoordinates::jacobi) {
+      throw Error("hamflow: Jacobi coordinates are no bijection of the lattice; democratic-heliocentric ones are");
+    } else {
+      return Stepper<P, A>(problem, describe(options));
+    }
   }
 };
 

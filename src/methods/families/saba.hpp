@@ -53,7 +53,7 @@ struct Saba {
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(table_of(given)); },
         .rank = 1,
-        .not_on_lattice = "its changes of coordinates are no bijections of the lattice",
+        .not_on_lattice = "Jacobi coordinates are no bijection of the lattice; wisdom-holman has others that are",
         .representatives = {"saba(1)", "saba(2)", "saba(3)", "saba(4)", "saba(8,4)", "saba(8,6,4)", "saba(10,6,4)"},
         .describe = [](std::size_t, const Texts& given) { return describe_saba(table_of(given)); },
         .needs = [](std::size_t) { return "bodies under gravity (n-body, solar-system)"; },

@@ -47,7 +47,13 @@ struct WisdomHolman {
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read_options(options(), given)); },
         .rank = 1,
-        .not_on_lattice = "its changes of coordinates are no bijections of the lattice",
+        .not_on_lattice =
+            "Jacobi coordinates are no bijection of the lattice; coordinates = "
+            "\"democratic-heliocentric\" are",
+        .allowed_on_lattice =
+            [](const Texts& given) {
+              return read_options(options(), given).coordinates == WisdomHolmanCoordinates::heliocentric;
+            },
         .representatives = {"wisdom-holman", "wisdom-holman(coordinates=democratic-heliocentric)",
                             "wisdom-holman(kernel=lazy)", "wisdom-holman(corrector=3)",
                             "wisdom-holman(corrector=17,kernel=lazy)"},
@@ -58,9 +64,7 @@ struct WisdomHolman {
               return MethodAdvice{.take =
                                       "planets move about a star for very many revolutions: the error of a step "
                                       "is proportional to the masses of the planets",
-                                  .avoid =
-                                      "bodies have like masses or meet closely: kahan-li8, rkn8-s19; the run must "
-                                      "reverse bit for bit: verlet, kahan-li8 on the lattice"};
+                                  .avoid = "bodies have like masses or meet closely: kahan-li8, rkn8-s19"};
             },
         .refused = [](const Texts& given) -> std::pair<std::string, std::string> {
           const WisdomHolmanOptions read = read_options(options(), given);

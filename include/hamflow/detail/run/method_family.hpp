@@ -53,6 +53,7 @@ struct MethodFamily {
   std::function<std::any(const Texts& options)> read{};
   int rank = 0;                // in lists: 0 by order and cost, then 1, 2, ...
   std::string not_on_lattice;  // why it is not a bijection of the lattice; empty: it is one
+  std::function<bool(const Texts& options)> allowed_on_lattice{};  // with these options it is one all the same
   std::vector<std::string>
       representatives;        // the forms that `verify --all` measures; empty: each method without options
   bool counts_forces = true;  // its work is counted in evaluations of the force or of the gradient
