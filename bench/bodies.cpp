@@ -4,6 +4,7 @@
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/splitting.hpp"
+#include "hamflow/methods/wisdom_holman_step.hpp"
 #include "hamflow/problems/of_any_size/n_body.hpp"
 #include "library.hpp"
 
@@ -78,8 +79,13 @@ Workload workload(std::size_t count, const std::string& method, const std::strin
 std::vector<Workload> body_workloads() {
   const hamflow::Composition<hamflow::compositions::verlet> verlet;
   const hamflow::Composition<hamflow::compositions::stv4> stv4;
-  return {workload(6, "verlet", "0.01", verlet), workload(10, "verlet", "0.01", verlet),
-          workload(10, "stv4", "0.01", stv4), workload(30, "verlet", "0.01", verlet)};
+  return {workload(6, "verlet", "0.01", verlet),
+          workload(10, "verlet", "0.01", verlet),
+          workload(10, "stv4", "0.01", stv4),
+          workload(30, "verlet", "0.01", verlet),
+          workload(6, "wisdom-holman", "0.1", hamflow::WisdomHolman{}),
+          workload(6, "wisdom-holman(kernel=lazy)", "0.1",
+                   hamflow::WisdomHolman{{.kernel = hamflow::WisdomHolmanKernel::lazy}})};
 }
 
 }  // namespace bench

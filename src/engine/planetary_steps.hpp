@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 #include "hamflow/detail/methods/close_encounter.hpp"
 #include "hamflow/run/simulation.hpp"
@@ -41,6 +42,11 @@ std::optional<CloseEncounter> encounter_of(const M& method, const Clock& clock) 
   if (found.step == 0) return {};
   return CloseEncounter{{found.one, found.other}, static_cast<double>(clock.time_after(found.step - clock.position()))};
 }
+
+struct NotPlanetary {};
+/// The interface, if the method of a simulation watches for encounters.
+template <bool watches>
+using PlanetaryStepsIf = std::conditional_t<watches, PlanetarySteps, NotPlanetary>;
 
 /// A simulation whose method watches for encounters.
 template <class Base>

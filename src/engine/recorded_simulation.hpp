@@ -14,6 +14,7 @@
 
 #include "hamflow/detail/run/step_sums.hpp"
 #include "in_parts.hpp"
+#include "planetary_steps.hpp"
 #include "recorded_part.hpp"
 #include "recorded_step.hpp"
 
@@ -27,7 +28,8 @@ using StepRecorder = std::function<std::optional<RecordedStep>(
 template <class P, class M, Arithmetic A>
 class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
                                  public RecordedMember,
-                                 public HasPartsInNumbers {
+                                 public HasPartsInNumbers,
+                                 public PlanetaryStepsIf<EncounterWatcher<M>> {
   using Base = InParts<SimulationOf<P, M, A>>;
   using typename StepsInParts<double>::Place;
   using Base::clock_;
@@ -177,9 +179,10 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
   std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls) override {
     return Base::varies_steps() ? nullptr : record(at_walls);
   }
-  /// Only for steps in plain double.
+  /// Only for steps in plain double. The derivative of a Kepler drift is not that of its recorded operations, which
+  /// leave out a part of Newton's method that is below rounding (orbits/kepler_tangent.hpp).
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) override {
-    if constexpr (std::is_same_v<A, Plain<double>>) {
+    if constexpr (std::is_same_v<A, Plain<double>> && !EncounterWatcher<M>) {
       if (!*recorder_) return nullptr;
       auto step = (*recorder_)(z_.positions(), z_.momenta(), clock_.step_length(), {}, false, at, AtWalls::stop);
       return step ? std::make_shared<const RecordedStep>(*std::move(step)) : nullptr;
@@ -210,6 +213,15 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
     step_ = nullptr;
     undone_ = nullptr;
   }
+  // These override functions of PlanetarySteps if the method watches for encounters.
+  std::optional<CloseEncounter> first_encounter() const {
+    if constexpr (EncounterWatcher<M>) {
+      return encounter_of(method_, clock_);
+    } else {
+      return {};
+    }
+  }
+  bool watches_every_step() const { return true; }
   bool is_recorded() const override {
     return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
   }

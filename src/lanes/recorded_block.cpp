@@ -5,12 +5,19 @@
 #include <map>
 
 #include "block_tangents.hpp"
+#include "engine/planetary_steps.hpp"
 #include "family_loop.hpp"
 #include "member_parameters.hpp"
 
 namespace hamflow {
 
 namespace {
+
+/// Whether bodies came close in a step. In later steps a guard of the recording finds that.
+bool meets_closely(const Simulation& simulation) {
+  const auto* const planets = dynamic_cast<const PlanetarySteps*>(&simulation);
+  return planets != nullptr && planets->first_encounter().has_value();
+}
 
 class RecordedBlock final : public EnsembleBlock {
  public:
@@ -48,7 +55,9 @@ class RecordedBlock final : public EnsembleBlock {
 
   void advance(std::int64_t steps) override {
     if (steps > 0 && taken_ == 0) {
-      for (Member& member : members_) member.lost = member.simulation->advance(1) != Outcome::done;
+      for (Member& member : members_) {
+        member.lost = member.simulation->advance(1) != Outcome::done || meets_closely(*member.simulation);
+      }
       for (std::size_t lane = 0; lane < lanes(); ++lane) read(lane);
       for (std::size_t lane = 0; lane < members_.size(); ++lane) add_to_sums(lane);
       --steps;

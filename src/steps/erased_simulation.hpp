@@ -138,8 +138,14 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
                                                                                    arithmetic);
             }
           }
-          return requested(
-              std::make_unique<PlanetarySimulation<Parted>>(problem, method, run.q, run.p, run.h, arithmetic));
+          if constexpr (std::is_same_v<R, double> && !A::exact_undo) {
+            return requested(std::make_unique<RecordedSimulation<P, decltype(method), A>>(
+                Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
+                request.record ? recorder_of<c, A>(run, recipe) : StepRecorder(), PartRecorder(), request.watch));
+          } else {
+            return requested(
+                std::make_unique<PlanetarySimulation<Parted>>(problem, method, run.q, run.p, run.h, arithmetic));
+          }
         } else {
           return requested(std::make_unique<Parted>(problem, method, run.q, run.p, run.h, arithmetic));
         }

@@ -1,15 +1,18 @@
 // wisdom-holman on the lattice, in democratic heliocentric coordinates.
 //
-// These need no change of variables: in positions and momenta of the bodies, with V the velocity of their centre of
-// mass, A moves body i by (p_i/m_i - V) and kicks it and the first body, J moves the first body by (p_0/m_0 - V), B
-// kicks pairs of the others, and all move with V. [DuncanEtAl1998] Increments of positions are functions of momenta and
-// increments of momenta functions of positions, each rounded to an integer. A kick adds the same integer to one body as
-// it subtracts from the other, so that the total momentum, and with it V, is constant to the last bit.
+// These need no change of variables. With V the velocity of the centre of mass, A moves body i by (p_i/m_i - V) and
+// kicks it and the first body, J moves the first body by (p_0/m_0 - V), and B kicks pairs of the others.
+// [DuncanEtAl1998] Increments of positions are functions of momenta and increments of momenta functions of positions,
+// each rounded to an integer. A kick adds the same integer to one body as it subtracts from the other, so that the
+// total momentum, and with it V, is constant to the last bit. All of this depends on differences of positions only. At
+// the end of a step all bodies are shifted together, so that their centre of mass moves by V dt: by a function of
+// differences before and after, which the way back subtracts again.
 //
 // The Kepler drift of a body in A is a sequence of shears (kepler_shears.hpp), in so many parts that its error is below
 // the rounding of a double. Their number is chosen at the first step and stays: the way back takes the same parts.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -56,13 +59,14 @@ class WisdomHolmanOnLattice {
   const Encounter& first_encounter() const { return encounter_; }
 
   Outcome step(const P&, const Real& h, State& z) {
-    if (parts_.empty() && !choose_parts(z, h / 2)) return Outcome::not_converged;
+    if (parts_.size() == 0 && !choose_parts(z, h / 2)) return Outcome::not_converged;
     find_frame_velocity(z);
+    const Place first = place_of_first(z);
     for (std::size_t i = 1; i < masses_.size(); ++i) drift(z, i, h / 2);
     move(z, 0, h);
     kick_by_planets(z, h);
-    move_with_frame(z, h);
     for (std::size_t i = 1; i < masses_.size(); ++i) drift(z, i, h / 2);
+    move_centre(z, first, h);
     ++forces_;
     if (const auto& met = encounters_.first()) encounter_ = {forces_, met->first, met->second};
     return Outcome::done;
@@ -74,7 +78,9 @@ class WisdomHolmanOnLattice {
   }
 
  private:
-  WisdomHolmanOnLattice(const PointMasses<RealOf<P>>& bodies, MethodInfo info)
+  static constexpr Real most_shift = 0x1p60;  // sums of a few shifts fit into 64 bits
+
+  WisdomHolmanOnLattice(const PointMasses<Real>& bodies, MethodInfo info)
       : info_(std::make_shared<const MethodInfo>(std::move(info))),
         space_(bodies.space),
         constant_(bodies.gravitational_constant),
@@ -93,7 +99,7 @@ class WisdomHolmanOnLattice {
   /// Whether there is a number of parts for each body.
   bool choose_parts(const State& z, Real t) {
     find_frame_velocity(z);
-    std::vector<std::uint64_t> found(masses_.size(), 0);
+    Vector<std::int64_t, dynamic> found(masses_.size());
     for (std::size_t i = 1; i < masses_.size(); ++i) {
       double r[3] = {}, v[3] = {};
       for (std::size_t k = 0; k < space_; ++k) {
@@ -102,9 +108,9 @@ class WisdomHolmanOnLattice {
       }
       const std::optional<std::size_t> parts = kepler_shear_parts(constant_ * masses_[0], r, v, space_, std::fabs(t));
       if (!parts) return false;
-      found[i] = *parts;
+      found[i] = static_cast<std::int64_t>(*parts);
     }
-    parts_.assign(found.begin(), found.end());
+    parts_ = found;
     return true;
   }
 
@@ -136,16 +142,39 @@ class WisdomHolmanOnLattice {
       z.arithmetic.position.add(z.q[index(i, k)], by * velocity);
     }
   }
-  void move_with_frame(State& z, Real by) const {
-    for (std::size_t i = 0; i < masses_.size(); ++i) {
-      for (std::size_t k = 0; k < space_; ++k) z.arithmetic.position.add(z.q[index(i, k)], by * frame_[k]);
+  /// Where the first body is, and where it is relative to the centre of mass: a rounded function of differences.
+  struct Place {
+    std::array<Stored, 3> position{};
+    std::array<Stored, 3> from_centre{};
+  };
+  Place place_of_first(State& z) const {
+    Place place;
+    for (std::size_t k = 0; k < space_; ++k) {
+      Real moment = 0;
+      for (std::size_t i = 1; i < masses_.size(); ++i) moment += masses_[i] * distance(z, i, 0, k);
+      place.position[k] = z.q[k];
+      if (!z.arithmetic.position.units(-moment / total_, most_shift, place.from_centre[k]))
+        z.arithmetic.position.lost = true;
+    }
+    return place;
+  }
+  /// Moves all bodies, so that their centre of mass has moved by V alone since the first body was at that place.
+  void move_centre(State& z, const Place& before, Real by) const {
+    const Place now = place_of_first(z);
+    for (std::size_t k = 0; k < space_; ++k) {
+      Stored with_frame = 0;
+      if (!z.arithmetic.position.units(by * frame_[k], most_shift, with_frame)) z.arithmetic.position.lost = true;
+      if (z.arithmetic.lost()) return;
+      const Stored wanted = before.position[k] + with_frame + (now.from_centre[k] - before.from_centre[k]);
+      const Stored shift = wanted - now.position[k];
+      for (std::size_t i = 0; i < masses_.size(); ++i) z.arithmetic.position.add_units(z.q[index(i, k)], shift);
     }
   }
 
   void drift(State& z, std::size_t i, Real t) const {
     const Real part = t / static_cast<Real>(parts_[i]);
     const Real within = drifts_.front() + drifts_.back();  // the last drift of a part and the first of the next
-    for (std::uint64_t count = 0; count < parts_[i]; ++count) {
+    for (std::int64_t count = 0; count < parts_[i]; ++count) {
       for (std::size_t s = 0; s < kicks_.size(); ++s) {
         move(z, i, part * (s == 0 && count > 0 ? within : drifts_[s]));
         attract(z, 0, i, part * kicks_[s]);
@@ -202,9 +231,9 @@ class WisdomHolmanOnLattice {
   EncounterWatch<Real> encounters_;
   PooledList<Real> drifts_;
   PooledList<Real> kicks_;
-  PooledList<std::uint64_t> parts_;  // of the drift of each body
+  Vector<std::int64_t, dynamic> parts_;  // of the drift of each body
   PooledList<Vector<Real, 3>> positions_;
-  Real frame_[3] = {};
+  std::array<Real, 3> frame_{};
   long long forces_ = 0;
   Encounter encounter_;
 };

@@ -112,9 +112,9 @@ class WisdomHolmanStep {
         negative_weights_.push_back(Real(Base(-weight)));
       }
     }
-    const PointMasses<RealOf<P>> bodies = problem.point_masses();
+    const PointMasses<Base> bodies = problem.point_masses();
     space_ = bodies.space;
-    for (const auto& mass : bodies.masses) inertia_.push_back(RealOf<P>(0) < mass ? Base(mass) : Base(1));
+    for (const auto& mass : bodies.masses) inertia_.push_back(Base(0) < mass ? mass : Base(1));
     r_.resize(inertia_.size());
     v_.resize(inertia_.size());
   }
@@ -162,7 +162,11 @@ class WisdomHolmanStep {
     if (outcome != Outcome::done) return outcome;
     forces_ += info_->forces_per_step;
     const auto met = std::visit([](const auto& splitting) { return splitting.first_encounter(); }, splitting_);
-    if (met) encounter_ = {forces_ / info_->forces_per_step, met->first, met->second};
+    if (met) {
+      // In a recording the comparisons of distances are guards that hold as long as there is no encounter.
+      if constexpr (detail::is_recording<Real>) return Outcome::not_converged;
+      encounter_ = {forces_ / info_->forces_per_step, met->first, met->second};
+    }
     return Outcome::done;
   }
 
@@ -233,11 +237,11 @@ class WisdomHolmanStep {
   }
 
   static Splitting splitting_of(const P& problem, const WisdomHolmanOptions& options) {
-    const PointMasses<RealOf<P>> bodies = problem.point_masses();
+    const PointMasses<Base> bodies = problem.point_masses();
     std::vector<Real> masses;
-    for (const auto& mass : bodies.masses) masses.push_back(Real(Base(mass)));
-    const Real constant{Base(bodies.gravitational_constant)};
-    const Real softening{Base(bodies.softening_squared)};
+    for (const auto& mass : bodies.masses) masses.push_back(Real(mass));
+    const Real constant{bodies.gravitational_constant};
+    const Real softening{bodies.softening_squared};
     if (options.coordinates == WisdomHolmanCoordinates::jacobi) return Jacobi(masses, constant, softening);
     return Heliocentric(masses, constant, softening);
   }

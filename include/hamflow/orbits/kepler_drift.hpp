@@ -25,7 +25,14 @@ struct KeplerIncrements {
   Vector<R, N> velocity_rest{};
 };
 
+template <class R>
+struct Trace;  // detail/core/tape.hpp
+
 namespace detail {
+
+/// Whether numbers of this type record what is computed with them.
+template <class R>
+inline constexpr bool is_recording = std::is_same_v<R, Trace<double>>;
 
 template <class R, std::size_t N>
 R inner_product(const Vector<R, N>& a, const Vector<R, N>& b) {
@@ -204,31 +211,35 @@ struct ShortKeplerStep {
 };
 
 /// The numbers of a body before a step, of which vectors have one in each lane.
+template <class R>
 struct ShortStepStart {
-  double r0;
-  double eta;
-  double square_of_v;
-  double mu;
+  R r0;
+  R eta;
+  R square_of_v;
+  R mu;
 
   template <std::size_t N>
-  static ShortStepStart of(const Vector<double, N>& r, const Vector<double, N>& v, double mu) {
+  static ShortStepStart of(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu) {
     return {sqrt(inner_product(r, r)), inner_product(r, v), inner_product(v, v), mu};
   }
   /// Whether the step is short. False if a number is NaN.
-  bool is_short(double s, double beta) const {
-    const double square = s * s;
-    const double limit_of_distance = short_step * r0;
-    return 0 < mu && mu * square < limit_of_distance && abs(eta * s) < limit_of_distance &&
-           abs(beta * square) < short_step && mu * mu * square < limit_of_distance * r0 * square_of_v;
+  bool is_short(const R& s, const R& beta) const {
+    const R square = s * s;
+    const R limit_of_distance = short_step * r0;
+    return R(0) < mu && mu * square < limit_of_distance && abs(eta * s) < limit_of_distance &&
+           abs(beta * square) < R(short_step) && mu * mu * square < limit_of_distance * r0 * square_of_v;
   }
 };
 
 /// Whether the fourth power of the last correction is below a rounding.
-inline bool is_small_correction(double relative) { return abs(relative) < 1e-4; }
+template <class R>
+bool is_small_correction(const R& relative) {
+  return abs(relative) < R(1e-4);
+}
 
-template <std::size_t N>
-void set_increments(const Vector<double, N>& r, const Vector<double, N>& v, double f_less_1, double g, double f_rate,
-                    double g_rate_less_1, KeplerIncrements<double, N>& out) {
+template <class R, std::size_t N>
+void set_increments(const Vector<R, N>& r, const Vector<R, N>& v, const R& f_less_1, const R& g, const R& f_rate,
+                    const R& g_rate_less_1, KeplerIncrements<R, N>& out) {
   for (std::size_t i = 0; i < N; ++i) {
     out.position[i] = f_less_1 * r[i] + g * v[i];
     out.velocity[i] = f_rate * r[i] + g_rate_less_1 * v[i];
@@ -238,21 +249,20 @@ void set_increments(const Vector<double, N>& r, const Vector<double, N>& v, doub
 }
 
 /// Returns false if the step is not short, or if a number is NaN.
-template <std::size_t N>
-bool short_drift(const Vector<double, N>& r, const Vector<double, N>& v, double mu, double t,
-                 KeplerIncrements<double, N>& out) {
-  const auto start = ShortStepStart::of(r, v, mu);
-  ShortKeplerStep<double> step(start.r0, start.eta, start.square_of_v, mu, t);
+template <class R, std::size_t N>
+bool short_drift(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu, const R& t, KeplerIncrements<R, N>& out) {
+  const auto start = ShortStepStart<R>::of(r, v, mu);
+  ShortKeplerStep<R> step(start.r0, start.eta, start.square_of_v, mu, t);
   if (!start.is_short(step.s, step.beta)) return false;
   const auto has_converged = [&] {
     step.correct();
     return is_small_correction(step.correction);
   };
   if (!has_converged() && !has_converged()) return false;
-  const double by_mass = mu * step.g2;
-  const double inverse_r = 1 / step.r;
-  set_increments(r, v, -by_mass * step.inverse_r0, t - mu * step.g3, -mu * step.g1 * step.inverse_r0 * inverse_r,
-                 -by_mass * inverse_r, out);
+  const R by_mass = mu * step.g2;
+  const R inverse_r = R(1) / step.r;
+  set_increments(r, v, R(-by_mass * step.inverse_r0), R(t - mu * step.g3),
+                 R(-mu * step.g1 * step.inverse_r0 * inverse_r), R(-by_mass * inverse_r), out);
   return true;
 }
 
@@ -272,7 +282,7 @@ template <std::size_t L, class Position, class Velocity, class Attraction, std::
   using V = typename Lanes<L>::Type;
   V r0, eta, square_of_v, mu;
   for (std::size_t l = 0; l < L; ++l) {
-    const auto start = ShortStepStart::of(r(l), v(l), attraction(l));
+    const auto start = ShortStepStart<double>::of(r(l), v(l), attraction(l));
     r0[l] = start.r0;
     eta[l] = start.eta;
     square_of_v[l] = start.square_of_v;
@@ -281,11 +291,11 @@ template <std::size_t L, class Position, class Velocity, class Attraction, std::
   ShortKeplerStep<V> step(r0, eta, square_of_v, mu, V{} + t);
   bool goes_on = true;
   for (std::size_t l = 0; l < L; ++l) {
-    goes_on = goes_on && ShortStepStart{r0[l], eta[l], square_of_v[l], mu[l]}.is_short(step.s[l], step.beta[l]);
+    goes_on = goes_on && ShortStepStart<double>{r0[l], eta[l], square_of_v[l], mu[l]}.is_short(step.s[l], step.beta[l]);
   }
   if (!goes_on) return false;
   step.correct();
-  for (std::size_t l = 0; l < L; ++l) goes_on = goes_on && is_small_correction(step.correction[l]);
+  for (std::size_t l = 0; l < L; ++l) goes_on = goes_on && is_small_correction<double>(step.correction[l]);
   if (!goes_on) return false;
   const V by_mass = mu * step.g2;
   const V inverse_r = 1 / step.r;
@@ -303,28 +313,33 @@ template <std::size_t L, class Position, class Velocity, class Attraction, std::
 
 /// Computes the increments of r and v over a time `t` of either sign, for mu = G m >= 0. In double the error is at most
 /// 4 units in the last place of the largest component of position and of velocity, or the effect of one unit in the
-/// inputs if that is larger. For types with more digits it is 64 units.
+/// inputs if that is larger. For types with more digits it is 64 units. Of the steps of a recording only short ones are
+/// taken.
 /// @returns not_converged if there is no such state: at a collision, or for inputs that are not finite or overflow
 template <class R, std::size_t N>
 Outcome kepler_drift(const Vector<R, N>& r, const Vector<R, N>& v, const R& mu, const R& t,
                      KeplerIncrements<R, N>& out) {
-  using Careful = typename CarefulNumber<R>::type;
-  if constexpr (std::is_same_v<R, double>) {
+  if constexpr (std::is_same_v<R, double> || detail::is_recording<R>) {
     if (detail::short_drift(r, v, mu, t, out)) return Outcome::done;
   }
-  KeplerIncrements<Careful, N> found{};
-  if (!detail::careful_drift(cast<Careful>(r), cast<Careful>(v), Careful(mu), Careful(t), found)) {
+  if constexpr (detail::is_recording<R>) {
     return Outcome::not_converged;
+  } else {
+    using Careful = typename CarefulNumber<R>::type;
+    KeplerIncrements<Careful, N> found{};
+    if (!detail::careful_drift(cast<Careful>(r), cast<Careful>(v), Careful(mu), Careful(t), found)) {
+      return Outcome::not_converged;
+    }
+    for (std::size_t i = 0; i < N; ++i) {
+      out.position[i] = R(found.position[i]);
+      out.velocity[i] = R(found.velocity[i]);
+      out.position_rest[i] = R(found.position[i] - Careful(out.position[i]));
+      out.velocity_rest[i] = R(found.velocity[i] - Careful(out.velocity[i]));
+      const R size = abs(out.position[i]) + abs(out.velocity[i]);
+      if (!(size <= std::numeric_limits<R>::max())) return Outcome::not_converged;
+    }
+    return Outcome::done;
   }
-  for (std::size_t i = 0; i < N; ++i) {
-    out.position[i] = R(found.position[i]);
-    out.velocity[i] = R(found.velocity[i]);
-    out.position_rest[i] = R(found.position[i] - Careful(out.position[i]));
-    out.velocity_rest[i] = R(found.velocity[i] - Careful(out.velocity[i]));
-    const R size = abs(out.position[i]) + abs(out.velocity[i]);
-    if (!(size <= std::numeric_limits<R>::max())) return Outcome::not_converged;
-  }
-  return Outcome::done;
 }
 
 /// Drifts of several bodies: calls add(i, increments) for each body i = body(0), ..., body(count - 1). The increments

@@ -19,7 +19,7 @@ struct PointMasses {
 /// **GravitatingBodies**: T = sum |p_i|^2/(2 m_i), V = -G sum m_i m_j/sqrt(r_ij^2 + softening^2), with these masses.
 template <class P>
 concept GravitatingBodies = QuadraticKinetic<P> && requires(const P& problem) {
-  { problem.point_masses() } -> std::same_as<PointMasses<RealOf<P>>>;
+  { problem.point_masses() } -> std::same_as<PointMasses<base_scalar<RealOf<P>>>>;
 };
 
 }  // namespace hamflow

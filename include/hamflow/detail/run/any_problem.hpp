@@ -372,7 +372,7 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   PointMasses<base_scalar<S>> point_masses() const override {
-    if constexpr (GravitatingBodies<P> && std::is_same_v<S, RealOf<P>>) {
+    if constexpr (GravitatingBodies<P> && std::is_same_v<base_scalar<S>, RealOf<P>>) {
       return problem_.point_masses();
     } else {
       absent();
@@ -581,7 +581,7 @@ class AnyProblem {
   RadialLaw<S> radial_law(const S& u) const requires radial {
     return on<S>().radial_law(u);
   }
-  PointMasses<R> point_masses() const requires gravitating { return on<R>().point_masses(); }
+  PointMasses<base_scalar<R>> point_masses() const requires gravitating { return on<R>().point_masses(); }
 
  private:
   template <class S>
