@@ -102,6 +102,7 @@
 #include "hamflow/methods/tao.hpp"
 #include "hamflow/methods/taylor.hpp"
 #include "hamflow/methods/wisdom_holman.hpp"
+#include "hamflow/methods/wisdom_holman_lattice.hpp"
 #include "hamflow/methods/wisdom_holman_step.hpp"
 #include "hamflow/numerics/elimination.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"

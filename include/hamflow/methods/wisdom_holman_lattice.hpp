@@ -74,7 +74,7 @@ class WisdomHolmanOnLattice {
 
   std::string failure(const P&, const Real&, const State&) const {
     return "the orbit of a body passes so near to the first one that a drift of half a step would need more than 4096 "
-           "parts on the lattice: a smaller dt";
+           "parts on the lattice";
   }
 
  private:
