@@ -396,7 +396,7 @@ class StepExamination {
     }
     PowerFit best;
     for (const std::size_t end : ends) {
-      for (const std::size_t count : {12, 9, 7, 6}) {
+      for (const std::size_t count : {12U, 9U, 7U, 6U}) {
         if (count > end) continue;
         const std::span window = std::span(points).subspan(end - count, count);
         for (const std::vector<int>& powers : {std::vector<int>{}, {1}, {2}, {1, 2}}) {

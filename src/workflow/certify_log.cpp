@@ -10,6 +10,10 @@
 
 namespace hamflow {
 
+namespace {
+using Json = nlohmann::ordered_json;
+}
+
 CertifiedLog certify_file(const std::filesystem::path& file, const std::string& time, const std::string& energy,
                           std::optional<double> scale) {
   const LogColumns columns = read_log_columns(file, time, energy);
@@ -33,7 +37,6 @@ CertifiedLog certify_file(const std::filesystem::path& file, const std::string& 
 }
 
 std::string log_certificate_json(const LogCertificate& certificate) {
-  using Json = nlohmann::ordered_json;
   const RunDrift& drift = certificate.drift;
   const auto or_null = [](const auto& x) { return x ? Json(*x) : Json(nullptr); };
   return json_text({{"drift", drift.drift ? name(*drift.drift) : "undecided"},

@@ -64,7 +64,10 @@ void __wrap_sincos(double x, double* sine, double* cosine) {
 }
 }
 
-// Those of double-double, by the names of the linker.
+// Those of double-double, by the names of the linker. Only C++ calls them, so that C need not know the type.
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
+#endif
 #define HAMFLOW_WRAP(name)                    \
   dd_real __real__Z##name(const dd_real& x);  \
   dd_real __wrap__Z##name(const dd_real& x);  \
