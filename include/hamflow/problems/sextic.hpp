@@ -34,7 +34,8 @@ class Sextic {
   template <class S>
   S potential(const Vector<S, 1>& q) const {
     const S q2 = q[0] * q[0];
-    return ((q2 / R(30) + R(1) / R(4)) * q[0] - R(1) / R(3)) * (q2 * q[0]) + R(1) / R(6);
+    const S q3 = q2 * q[0];  // named, because compilers evaluate factors in any order, and slopes depend on it
+    return ((q2 / R(30) + R(1) / R(4)) * q[0] - R(1) / R(3)) * q3 + R(1) / R(6);
   }
   template <class S>
   void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {

@@ -50,7 +50,9 @@ class Fput {
     S sum(0);
     for (std::size_t i = 0; i <= n_; ++i) {
       const S r = link(q, i);
-      sum += r * r * (R(1) / R(2) + r * (alpha_ / R(3) + r * (beta_ / R(4))));
+      // Named, because compilers evaluate factors in any order, and slopes of a recording depend on it.
+      const S stiffness = R(1) / R(2) + r * (alpha_ / R(3) + r * (beta_ / R(4)));
+      sum += r * r * stiffness;
     }
     return sum;
   }

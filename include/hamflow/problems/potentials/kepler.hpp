@@ -58,7 +58,8 @@ class Kepler {
   template <class S>
   CentralDerivatives<S> derivatives(const S& u) const {
     const S inverse = R(1) / u;
-    const S slope = k_ * inverse * sqrt(inverse);
+    const S root = sqrt(inverse);  // named, because compilers evaluate factors in any order, and slopes depend on it
+    const S slope = k_ * inverse * root;
     return {slope, R(-3) * slope * inverse};
   }
 
