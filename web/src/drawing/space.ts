@@ -44,7 +44,7 @@ const corners: Point[] = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1 ? 1 : -1, i 
 
 export function draw_space(canvas: HTMLCanvasElement, curves: SpaceCurve[], names: string[], ends: Ends, look: Look): void {
   const { pen, width, height } = prepared(canvas);
-  const unit = Math.min(width, height) / 3.7;
+  const unit = Math.max(10, Math.min(width - 110, height - 90)) / 2.9; // the cube from corner to corner, with room for names
   const [cos_turn, sin_turn, cos_tilt, sin_tilt] = [Math.cos(look.turn), Math.sin(look.turn), Math.cos(look.tilt), Math.sin(look.tilt)];
   /// From -1 .. 1 on each axis to the picture; the third number is the distance to the eye.
   const seen = ([x, y, z]: Point): Point => {
