@@ -43,10 +43,13 @@ const set_input = (page, selector, value, event = "input") => page.locator(selec
 const set_speed = (page, value) => set_input(page, "#speed", value);
 const last_number = (value) => Number(/([-\d.e]+)\D*$/.exec(value)?.[1]);
 const ended = (page) => page.waitForFunction(() => document.getElementById("play").textContent === "Play", null, { timeout: 120_000 });
+/// So that the status that is waited for is that of the next scenario.
+const forget_status = (page) => page.evaluate(() => (document.getElementById("status").textContent = ""));
 async function typed(page, toml) {
   await page.locator("#editor").fill(toml);
   await page.locator("#x").evaluate((input) => (input.value = ""));
   await page.locator("#y").evaluate((input) => (input.value = ""));
+  await forget_status(page);
   await page.locator("#integrate").click();
   await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of") || document.querySelector("#complaints li"));
 }
@@ -186,10 +189,11 @@ const tests = {
     const titles = await page.locator("#gallery option").allTextContents();
     const files = readdirSync(join(source, "src/gallery")).filter((name) => name.endsWith(".toml"));
     expect(titles.length === files.length + 1, `${titles.length - 1} examples`);
-    await set_speed(page, 3.5);
     for (let i = 0; i < files.length; ++i) {
+      await forget_status(page);
       await page.locator("#gallery").selectOption(String(i));
       await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of") || document.querySelector("#complaints li"), null, { timeout: 60_000 });
+      await set_speed(page, 3.5);
       await page.locator("#play").click();
       await page.waitForTimeout(1500);
       if ((await text(page, "play")) === "Pause") await page.locator("#play").click();
