@@ -132,7 +132,7 @@ TEST(NearPairs, KicksOfTheLatticeAreThoseOfAllPairs) {
         by_list.use_threads(threads);
         for (int time = 0; time <= 24; time += 3) {
           auto q = vector_of<double>(places(arena, time));
-          q[time] += 0x1p-44;  // off the jump, or onto it, by one unit
+          q[static_cast<std::size_t>(time)] += 0x1p-44;  // off the jump, or onto it, by one unit
           PhasePoint<Lattice, dynamic> z{.arithmetic = lattice};
           z.store(q, zero);
           Vector<std::int64_t, dynamic> kick(q.size());

@@ -210,10 +210,8 @@ TEST(WisdomHolman, WeightsSolveTheirEquations) {
   for (const std::size_t stages : {1U, 2U, 3U, 5U, 8U}) {
     const std::vector<Quad> b = corrector_weights<Quad>(stages);
     const std::vector<double> in_double = corrector_weights<double>(stages);
-    double factorial = 1;  // n!
     for (std::size_t j = 0; j < stages; ++j) {
       const int n = static_cast<int>(2 * j + 1);
-      factorial *= j == 0 ? 1 : (n - 1) * n;
       Quad sum(0);
       for (std::size_t k = 0; k < stages; ++k) {
         sum += b[k] * whole_power(Quad(static_cast<int>(k + 1)) * sqrt(Quad(7) / Quad(40)), n);
