@@ -7,7 +7,7 @@
     python3 ledger.py build/release/hamflow --update            # writes ledger.json anew
 
 A part is a key of JSON, a column of CSV, a dataset or an attribute of HDF5, a status, or the names of the files in a folder.
-Times, versions and the name of the machine are left out, and so are sentences: what a complaint says of its file, line, column
+Times, versions, the name of the machine and the width of its registers are left out, and so are sentences: what a complaint says of its file, line, column
 and key stays. The cases are in cases.py. sin, exp, ... come from the system's library: where that gives other bits than
 the one the ledger was made with, nothing is compared, and the ledger says so (status 77).
 """
@@ -35,7 +35,7 @@ from cases import CASES  # noqa: E402
 
 LEDGER = HERE / "ledger.json"
 TIMES = {"winners", "wall_seconds", "seconds", "steps_per_second", "members_per_second", "member_steps_per_second", "version", "hamflow",
-         "host", "created", "creator", "instruction_set", "threads", "folder", "file", "run"}
+         "host", "created", "creator", "instruction_set", "lanes", "threads", "folder", "file", "run"}
 SENTENCES = {"message", "hint", "reason", "note", "notes", "description", "meaning", "event_notes", "advice"}
 LEFT_OUT = TIMES | SENTENCES
 DIFFERENT_LIBRARY = 77
