@@ -4,7 +4,7 @@ is checked like a clone."""
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ("include", "src", "apps", "tests", "bench", "examples", "python", "theses")
+FOLDERS = ("include", "src", "apps", "web/engine", "tests", "bench", "examples", "python", "theses")
 
 
 def cpp_sources(root: pathlib.Path) -> list[pathlib.Path]:

@@ -26,7 +26,7 @@ KeplerShears shears_of(const SplittingTable& table) {
 template <class R>
 using Plane = Vector<R, 2>;
 
-/// Moves a body by `parts` times the shears; returns false if it is in the centre.
+/// Moves a body over a time t in `parts` equal parts.
 void shear(Plane<DoubleDouble>& r, Plane<DoubleDouble>& v, const DoubleDouble& mu, double t, std::size_t parts) {
   static const SplittingSequence<DoubleDouble> sequence = sequence_of<DoubleDouble>(splittings::rkn8_s19);
   const DoubleDouble part = DoubleDouble(t) / DoubleDouble(static_cast<double>(parts));
@@ -70,6 +70,7 @@ std::optional<std::size_t> kepler_shear_parts(double mu, const double* r, const 
     }
   }
   const double beta = 2 * mu / std::sqrt(distance) - speed;
+  // e^2 = 1 - beta l^2/mu^2, and the distance at the pericentre is l^2/(mu (1 + e)).   [Danby1988, Sect. 6.9]
   const double e = std::sqrt(std::max(0.0, 1 - area_rate * beta / (mu * mu)));
   const double pericentre = area_rate / (mu * (1 + e));
   if (!(0 < pericentre) || !std::isfinite(pericentre)) return {};
@@ -87,7 +88,8 @@ std::optional<std::size_t> kepler_shear_parts(double mu, const double* r, const 
     const double error = std::max(largest_difference(moved_r, end_r) / largest(end_r),
                                   largest_difference(moved_v, end_v) / largest(end_v));
     if (error <= rounding) return parts;
-    // The error falls with the eighth power of the number of parts; a little less is tried, so as to miss no number.
+    // The error falls with the eighth power of the number of parts. The next try is a tenth below the number that this
+    // predicts, so that the smallest one that does is found.
     const double factor = std::isfinite(error) ? std::clamp(0.9 * std::pow(error / rounding, 0.125), 1.0, 2.0) : 2.0;
     parts = std::max(parts + 1, static_cast<std::size_t>(static_cast<double>(parts) * factor));
   }

@@ -15,14 +15,22 @@ using Json = nlohmann::ordered_json;
 
 const char* name_of(OptionType type) {
   switch (type) {
-    case OptionType::number: return "number";
-    case OptionType::list: return "list";
-    case OptionType::number_or_list: return "number_or_list";
-    case OptionType::word: return "word";
-    case OptionType::word_list: return "word_list";
-    case OptionType::yes_no: return "yes_no";
-    case OptionType::text: return "text";
-    case OptionType::table: return "table";
+    case OptionType::number:
+      return "number";
+    case OptionType::list:
+      return "list";
+    case OptionType::number_or_list:
+      return "number_or_list";
+    case OptionType::word:
+      return "word";
+    case OptionType::word_list:
+      return "word_list";
+    case OptionType::yes_no:
+      return "yes_no";
+    case OptionType::text:
+      return "text";
+    case OptionType::table:
+      return "table";
   }
   return "";
 }

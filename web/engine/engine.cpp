@@ -110,7 +110,8 @@ class Motion {
     Json particles;
     if (scenario_.problem->particles) {
       const ParticleFacts found = scenario_.problem->particles(scenario_.request.parameters);
-      particles = {{"space", found.space}, {"edges", found.edges}, {"radius", found.radius}, {"repulsion", found.repulsion}};
+      particles = {
+          {"space", found.space}, {"edges", found.edges}, {"radius", found.radius}, {"repulsion", found.repulsion}};
     }
     const MethodInfo method = describe(scenario_.request.method);
     return {{"problem", scenario_.problem->info.name},

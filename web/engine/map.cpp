@@ -204,8 +204,7 @@ void Map::run_alone(const Cell& cell) {
   numbers_[cell.place] = number(cell, frame, simulation->energy(), simulation->wall_counts());
 }
 
-double Map::number(const Cell& cell, const Frame& frame, const Excursion& energy,
-                   const std::vector<WallCount>& walls) {
+double Map::number(const Cell& cell, const Frame& frame, const Excursion& energy, const std::vector<WallCount>& walls) {
   switch (kind_) {
     case Kind::energy_error:
       return energy.max_error;
@@ -221,8 +220,8 @@ double Map::number(const Cell& cell, const Frame& frame, const Excursion& energy
   }
   const Texts& parameters = cell.scenario.request.parameters;
   if (!expression_ || expression_->first != parameters) {
-    expression_.emplace(parameters, StateExpression(observable_, *cell.scenario.problem, parameters,
-                                                    cell.scenario.start_q.size()));
+    expression_.emplace(parameters,
+                        StateExpression(observable_, *cell.scenario.problem, parameters, cell.scenario.start_q.size()));
   }
   return expression_->second(frame);
 }
@@ -262,7 +261,8 @@ void Map::find_exponents(std::span<const Cell> cells) {
     });
   }
   for (const LaneTangents& job : jobs) {
-    numbers_[cells[job.lane].place] = sums[job.lane] / (static_cast<double>(steps_) * std::abs(cells[job.lane].member.start.h));
+    numbers_[cells[job.lane].place] =
+        sums[job.lane] / (static_cast<double>(steps_) * std::abs(cells[job.lane].member.start.h));
   }
 }
 

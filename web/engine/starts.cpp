@@ -55,7 +55,9 @@ class Starts::LaneGroup final : public Group {
 class Starts::Single final : public Group {
  public:
   Single(const Scenario& scenario, std::size_t number, const std::function<void(const SectionPoint&)>& found)
-      : simulation_(make_simulation(scenario.request)), finder_(*simulation_, *scenario.section, found), number_(number) {}
+      : simulation_(make_simulation(scenario.request)),
+        finder_(*simulation_, *scenario.section, found),
+        number_(number) {}
   void advance(std::int64_t steps) override {
     std::vector<Observer*> observers{&finder_};
     if (!is_failure(outcome_)) outcome_ = run(*simulation_, simulation_->step() + steps, observers);

@@ -51,12 +51,7 @@ class WisdomHolmanOnLattice {
     ar(forces_, encounter_.step, encounter_.one, encounter_.other, parts_);
   }
 
-  struct Encounter {
-    long long step = 0;  // the number of steps taken when that step was done; 0: there was no encounter
-    std::uint64_t one = 0;
-    std::uint64_t other = 0;
-  };
-  const Encounter& first_encounter() const { return encounter_; }
+  const FirstEncounter& first_encounter() const { return encounter_; }
 
   Outcome step(const P&, const Real& h, State& z) {
     if (parts_.size() == 0 && !choose_parts(z, h / 2)) return Outcome::not_converged;
@@ -235,7 +230,7 @@ class WisdomHolmanOnLattice {
   PooledList<Vector<Real, 3>> positions_;
   std::array<Real, 3> frame_{};
   long long forces_ = 0;
-  Encounter encounter_;
+  FirstEncounter encounter_;  // seen in a kick
 };
 
 }  // namespace hamflow

@@ -139,13 +139,7 @@ class WisdomHolmanStep {
     return change(z, [&](Jacobi& s, auto& state) { return s.correct(state, Real(h), negative_weights_); });
   }
 
-  /// The first close encounter, seen in a kick.
-  struct Encounter {
-    long long step = 0;  // the number of steps taken when that step was done; 0: there was no encounter
-    std::uint64_t one = 0;
-    std::uint64_t other = 0;
-  };
-  const Encounter& first_encounter() const { return encounter_; }
+  const FirstEncounter& first_encounter() const { return encounter_; }
 
   Outcome step(const P&, const Base& h, State& z) {
     std::visit([&](auto& splitting) { splitting.watch_encounters(encounter_.step == 0); }, splitting_);
@@ -257,7 +251,7 @@ class WisdomHolmanStep {
   PooledList<Real> negative_weights_;
   bool corrects_ = true;
   long long forces_ = 0;
-  Encounter encounter_;
+  FirstEncounter encounter_;  // seen in a kick
   // Memory of `change`, kept from step to step.
   Spaces r_;
   Spaces v_;

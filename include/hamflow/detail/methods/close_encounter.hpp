@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,6 +18,13 @@ using PooledList = std::vector<T, PoolAllocator<T>>;
 
 /// Two bodies, by index, neither of which is the first.
 using EncounterOfTwo = std::pair<std::size_t, std::size_t>;
+
+/// What a method keeps of its first encounter.
+struct FirstEncounter {
+  long long step = 0;  // the number of steps taken when that step was done; 0: there was no encounter
+  std::uint64_t one = 0;
+  std::uint64_t other = 0;
+};
 
 /// Finds the first pair of bodies within 3 Hill radii of one of them: d < 3 r (m/(3 m_0))^(1/3), with the mass m of
 /// that body and its distance r from the centre of its orbit.   [MurrayDermott1999, ch. 3]
