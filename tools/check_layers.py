@@ -2,7 +2,7 @@
 
 The arrows stand in HACKING.md, in the block that begins with ```layers, and nowhere else. `a -> b, c` says that sources of
 the layer a may include headers of a, b and c, and of whatever b and c may include. A layer is a folder of include/hamflow by
-its name (that of detail of the same name belongs to it), a folder of src as src/NAME, one of the folders apps, tests, bench and examples, or the header hamflow.hpp."""
+its name (that of detail of the same name belongs to it), a folder of src as src/NAME, one of the folders apps, web, tests, bench and examples, or the header hamflow.hpp."""
 
 import collections
 import os
