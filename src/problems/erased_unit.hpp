@@ -19,8 +19,8 @@ class ErasedUnit : ProblemStart<Family> {
  public:
   static ErasedEntry entry() {
     ErasedEntry e{ProblemFacts<Family>::entry(), simulate, step_map};
-    e.simulate_member = [](const Request& request, const Parameters<double>& parameters, const std::vector<double>& q,
-                           const std::vector<double>& p, double h) {
+    e.simulate_member = +[](const Request& request, const Parameters<double>& parameters, const std::vector<double>& q,
+                            const std::vector<double>& p, double h) {
       const auto moved = [](const std::vector<double>& x) {
         auto y = zeros<double, dynamic>(x.size());
         std::copy(x.begin(), x.end(), y.begin());
@@ -29,11 +29,11 @@ class ErasedUnit : ProblemStart<Family> {
       return simulate_erased<double>(
           {functions_of<double>(In::template make<double>(parameters, q.size())), moved(q), moved(p), h}, request);
     };
-    if constexpr (HasChart<Family<double>>) {
-      e.to_reference = [](const std::string& arithmetic, const DigitState& state) {
+    if constexpr (has_more_digits && HasChart<Family<double>>) {
+      e.to_reference = +[](const std::string& arithmetic, const DigitState& state) {
         return in_arithmetic(arithmetic, [&]<class R>() { return texts_of(Family<R>::to_reference(read<R>(state))); });
       };
-      e.from_reference = [](const std::string& arithmetic, const DigitState& state) {
+      e.from_reference = +[](const std::string& arithmetic, const DigitState& state) {
         return in_arithmetic(arithmetic,
                              [&]<class R>() { return texts_of(Family<R>::from_reference(read<R>(state))); });
       };
@@ -43,7 +43,13 @@ class ErasedUnit : ProblemStart<Family> {
 
  private:
   static std::unique_ptr<Simulation> simulate(const Request& request) {
-    return simulated_in(request.arithmetic, [&]<class R>() { return simulate_in<R>(request); });
+    return simulated_in(request.arithmetic, [&]<class R>() -> std::unique_ptr<Simulation> {
+      if constexpr (has_more_digits || std::is_same_v<R, double>) {
+        return simulate_in<R>(request);
+      } else {
+        return nullptr;  // not reached: the laboratory refuses the arithmetic before, and need not compile this
+      }
+    });
   }
 
   template <class R>

@@ -2,6 +2,7 @@
 // with light optimisation in the unit of the problem behind virtual calls.
 #pragma once
 
+#include "engine/erased.hpp"
 #include "hamflow/detail/run/probe.hpp"
 #include "known_exact.hpp"
 #include "problem_start.hpp"
@@ -17,28 +18,29 @@ class ProblemFacts : ProblemStart<Family> {
   using In::vector_of;
 
  public:
-  /// The entry without its simulations.
+  /// The entry without its simulations. The + makes pointers of the lambdas: std::function then has one wrapper for all
+  /// problems in place of one for each lambda, which was a third of the code of a problem.
   static ProblemEntry entry() {
     ProblemEntry e;
     e.info = P::info();
     e.dimension = n == dynamic ? 0 : n;
     e.has_distance = HasDistanceRate<P>;
     e.refused_size = refused_size;
-    e.refused_parameters = [](const Texts& parameters) -> std::pair<std::string, std::string> {
+    e.refused_parameters = +[](const Texts& parameters) -> std::pair<std::string, std::string> {
       if constexpr (HasRefusedParameters<P>) {
         return P::refused_parameters(Parameters<double>(parameters));
       } else {
         return {};
       }
     };
-    e.refused_start = [](const Texts& parameters, const std::vector<double>& q) -> StartRefusal {
+    e.refused_start = +[](const Texts& parameters, const std::vector<double>& q) -> StartRefusal {
       if constexpr (HasRefusedStart<P>) {
         return {P::refused_start(Parameters<double>(parameters), vector_of(q))};
       } else {
         return {};
       }
     };
-    e.derived = [](const Texts& parameters, const StartSpec& spec) {
+    e.derived = +[](const Texts& parameters, const StartSpec& spec) {
       Texts all = parameters;
       if constexpr (HasDerive<P>) {
         Parameters<double> given(parameters);
@@ -52,45 +54,45 @@ class ProblemFacts : ProblemStart<Family> {
       }
       return all;
     };
-    e.conditions = [](const Texts& parameters, const StartSpec& spec) {
+    e.conditions = +[](const Texts& parameters, const StartSpec& spec) {
       Conditions conditions;
       if constexpr (HasStart<P>)
         (void)P::start(spec.kind, Parameters<double>(parameters), Parameters<double>(spec.orbit), conditions);
       return conditions.all();
     };
-    e.energy = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    e.energy = +[](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
       return hamflow::energy(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q),
                              vector_of(p));
     };
     e.gradient = gradient_of;
     e.regular = regular;
-    e.invariant_sizes = [](const Texts& parameters, std::size_t size) {
+    e.invariant_sizes = +[](const Texts& parameters, std::size_t size) {
       return detail::invariant_sizes(In::template make<double>(Parameters<double>(parameters), size));
     };
-    e.start = [](const Request& request) { return frame_of(In::template start<double>(request)); };
+    e.start = +[](const Request& request) { return frame_of(In::template start<double>(request)); };
     if constexpr (HasTotalMass<P>) {
-      e.total_mass = [](const Texts& parameters, std::size_t size) {
+      e.total_mass = +[](const Texts& parameters, std::size_t size) {
         return In::template make<double>(Parameters<double>(parameters), size).total_mass();
       };
     }
     if constexpr (HasChart<P>) {
-      e.to_reference = [](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
+      e.to_reference = +[](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
         return frame_of(P::to_reference({vector_of(q), vector_of(p)}));
       };
-      e.from_reference = [](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
+      e.from_reference = +[](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
         return frame_of(P::from_reference({vector_of(q), vector_of(p)}));
       };
     }
-    if constexpr (HasExactRadius<P>) {
-      e.exact_radius = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    if constexpr (has_more_digits && HasExactRadius<P>) {
+      e.exact_radius = +[](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
         return P(Parameters<double>(parameters)).exact_radius(vector_of(q), vector_of(p));
       };
     }
-    if constexpr (HasExact<P>) {
-      e.exact = exact;
+    if constexpr (has_more_digits && HasExact<P>) {
+      e.exact = exact;  // asked by the command alone, and in long double
     }
-    if constexpr (HasOrbitFacts<P>) {
-      e.describe_orbit = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    if constexpr (has_more_digits && HasOrbitFacts<P>) {
+      e.describe_orbit = +[](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
         return P(Parameters<double>(parameters)).describe_orbit(vector_of(q), vector_of(p));
       };
     }
