@@ -29,6 +29,15 @@ const bodies = `[problem]\nname = "n-body"\nmasses = [1, 1, 1]
 initial = { q = [0.97000436, -0.24308753, -0.97000436, 0.24308753, 0, 0], p = [0.466203685, 0.43236573, 0.466203685, 0.43236573, -0.93240737, -0.86473146] }\n`;
 const gas = `[problem]\nname = "gas"\nparticles_per_side = 5\nstart = "corner"\npair = "lennard-jones"\nscale = "per-side"\ncontainer = { kind = "circle", radius = 1.5, exponent = 1 }\n`;
 
+const named = (name, start, more = "") => `[problem]\nname = "${name}"\n${more}${start ? `initial = { ${start} }` : ""}\n`;
+const duffing = named("duffing", "q = [1.3], p = [0.4]", "mass = 1\nalpha = -1\nbeta = 1\n");
+const chain = named("fput", "q = [0.3, 0.4, -0.2, 0.2], p = [0.1, -0.2, 0.2, 0.1]", "n = 4\nalpha = 0.25\nbeta = 0.5\n");
+const sextic = named("sextic", "q = [0.6], p = [0.9]");
+const harmonic = named("harmonic", "q = [1], p = [0.5]");
+const magnetic = named("magnetic", "q = [0.4, -0.3, 0.2], p = [0.5, 0.3, 0.4]", "field = [0.1, 0.2, 1]\n");
+const molecule = named("lennard-jones-oscillator", "q = [1.5], p = [0]");
+const planets = named("solar-system", "", 'planets = "outer"\n');
+
 /// name, problem, method, run
 const scenarios = [
   ["henon verlet", henon, "verlet", "dt = 0.05"],
@@ -60,6 +69,17 @@ const scenarios = [
   ["sphere rattle4", sphere, "rattle4", "dt = 0.05"],
   ["three bodies stv4", bodies, "stv4", "dt = 0.01"],
   ["three bodies dop853", bodies, "dop853", "dt = 0.02"],
+  ["duffing stv4", duffing, "stv4", "dt = 0.1"],
+  ["duffing lattice", duffing, "verlet", 'dt = 0.1\narithmetic = "lattice"'],
+  ["chain stv4", chain, "stv4", "dt = 0.05"],
+  ["chain verlet lattice", chain, "verlet", 'dt = 0.05\narithmetic = "lattice"'],
+  ["sextic cg", sextic, "cg", "dt = 0.05"],
+  ["harmonic yoshida6", harmonic, "yoshida6", "dt = 0.1"],
+  ["harmonic taylor", harmonic, "taylor", "dt = 0.1"],
+  ["magnetic boris", magnetic, "boris", "dt = 0.1"],
+  ["molecule dop853", molecule, "dop853", "dt = 0.02"],
+  ["planets wisdom-holman", planets, "wisdom-holman", "dt = 20"],
+  ["planets wisdom-holman lattice", planets, "wisdom-holman", 'dt = 20\narithmetic = "lattice"'],
   ["gas verlet", gas, "verlet", "dt = 0.001"],
   ["gas stv4 lattice", gas, "stv4", 'dt = 0.001\narithmetic = "lattice"'],
 ];
