@@ -79,7 +79,7 @@ const scenarios = [
   ["magnetic boris", magnetic, "boris", "dt = 0.1"],
   ["molecule dop853", molecule, "dop853", "dt = 0.02"],
   ["planets wisdom-holman", planets, "wisdom-holman", "dt = 20"],
-  ["planets wisdom-holman lattice", planets, "wisdom-holman", 'dt = 20\narithmetic = "lattice"'],
+  ["planets wisdom-holman lattice", planets, 'wisdom-holman"\ncoordinates = "democratic-heliocentric', 'dt = 20\narithmetic = "lattice"'],
   ["gas verlet", gas, "verlet", "dt = 0.001"],
   ["gas stv4 lattice", gas, "stv4", 'dt = 0.001\narithmetic = "lattice"'],
 ];
