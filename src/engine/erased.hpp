@@ -6,6 +6,7 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/detail/arithmetic/more_digits.hpp"
 #include "hamflow/detail/core/tape.hpp"
 #include "hamflow/detail/run/any_problem.hpp"
 #include "hamflow/detail/run/digits.hpp"
@@ -94,13 +95,6 @@ struct ErasedEntry {
       simulate_member{};
 };
 
-/// The laboratory (web/engine) has no arithmetic beyond double and no StepMap, so that it is small.
-#ifdef HAMFLOW_DOUBLE_ONLY
-inline constexpr bool has_more_digits = false;
-#else
-inline constexpr bool has_more_digits = true;
-#endif
-
 /// Calls action.template operator()<R>() with the number type R of an arithmetic beyond double.
 template <class Action>
 auto in_arithmetic(const std::string& arithmetic, const Action& action) {
@@ -111,14 +105,12 @@ auto in_arithmetic(const std::string& arithmetic, const Action& action) {
       return action.template operator()<Mp>();
     }
   }
-  if constexpr (!has_more_digits) {
-    throw Error("found arithmetic " + arithmetic + "; the laboratory allows double, compensated and lattice");
-  }
   if (arithmetic != "double-double") throw Error("found '" + arithmetic + "'; allowed more digits than double has");
   return action.template operator()<DoubleDouble>();
 }
 
-/// The StepMap of the problem whose functions in the number type R are functions.template operator()<R>().
+/// The StepMap of the problem whose functions in the number type R are functions.template operator()<R>(); null in the
+/// laboratory, because it needs more digits.
 template <class Functions>
 std::unique_ptr<StepMap> step_map_of(const Functions& functions, const Request& request) {
   if constexpr (!has_more_digits) {
@@ -133,10 +125,14 @@ std::unique_ptr<StepMap> step_map_of(const Functions& functions, const Request& 
 /// The simulation that action.template operator()<R>() makes in the number type of any arithmetic.
 template <class Action>
 std::unique_ptr<Simulation> simulated_in(const std::string& arithmetic, const Action& action) {
-  if (digits_beyond_double(arithmetic) == 0) return action.template operator()<double>();
-  auto simulation = in_arithmetic(arithmetic, action);
-  const int digits = mp_digits(arithmetic);
-  return digits > 0 ? with_digits(digits, std::move(simulation)) : std::move(simulation);
+  if constexpr (has_more_digits) {
+    if (digits_beyond_double(arithmetic) > 0) {
+      auto simulation = in_arithmetic(arithmetic, action);
+      const int digits = mp_digits(arithmetic);
+      return digits > 0 ? with_digits(digits, std::move(simulation)) : std::move(simulation);
+    }
+  }
+  return action.template operator()<double>();
 }
 
 }  // namespace hamflow

@@ -2,7 +2,7 @@
 // with light optimisation in the unit of the problem behind virtual calls.
 #pragma once
 
-#include "engine/erased.hpp"
+#include "hamflow/detail/arithmetic/more_digits.hpp"
 #include "hamflow/detail/run/probe.hpp"
 #include "known_exact.hpp"
 #include "problem_start.hpp"
@@ -18,8 +18,8 @@ class ProblemFacts : ProblemStart<Family> {
   using In::vector_of;
 
  public:
-  /// The entry without its simulations. The + makes pointers of the lambdas: std::function then has one wrapper for all
-  /// problems in place of one for each lambda, which was a third of the code of a problem.
+  /// The entry without its simulations. The + turns lambdas into pointers, so that std::function has one wrapper for
+  /// each signature, in place of one for each lambda of each problem.
   static ProblemEntry entry() {
     ProblemEntry e;
     e.info = P::info();
@@ -83,15 +83,15 @@ class ProblemFacts : ProblemStart<Family> {
         return frame_of(P::from_reference({vector_of(q), vector_of(p)}));
       };
     }
-    if constexpr (has_more_digits && HasExactRadius<P>) {
+    if constexpr (HasExactRadius<P>) {
       e.exact_radius = +[](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
         return P(Parameters<double>(parameters)).exact_radius(vector_of(q), vector_of(p));
       };
     }
     if constexpr (has_more_digits && HasExact<P>) {
-      e.exact = exact;  // asked by the command alone, and in long double
+      e.exact = exact;  // in long double
     }
-    if constexpr (has_more_digits && HasOrbitFacts<P>) {
+    if constexpr (HasOrbitFacts<P>) {
       e.describe_orbit = +[](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
         return P(Parameters<double>(parameters)).describe_orbit(vector_of(q), vector_of(p));
       };

@@ -38,7 +38,7 @@ const magnetic = named("magnetic", "q = [0.4, -0.3, 0.2], p = [0.5, 0.3, 0.4]", 
 const molecule = named("lennard-jones-oscillator", "q = [1.5], p = [0]");
 const planets = named("solar-system", "", 'planets = "outer"\n');
 
-/// name, problem, method, run
+/// name, problem, method or the keys of [method], run
 const scenarios = [
   ["henon verlet", henon, "verlet", "dt = 0.05"],
   ["henon stv4", henon, "stv4", "dt = 0.05"],
@@ -79,7 +79,7 @@ const scenarios = [
   ["magnetic boris", magnetic, "boris", "dt = 0.1"],
   ["molecule dop853", molecule, "dop853", "dt = 0.02"],
   ["planets wisdom-holman", planets, "wisdom-holman", "dt = 20"],
-  ["planets wisdom-holman lattice", planets, 'wisdom-holman"\ncoordinates = "democratic-heliocentric', 'dt = 20\narithmetic = "lattice"'],
+  ["planets wisdom-holman lattice", planets, 'name = "wisdom-holman"\ncoordinates = "democratic-heliocentric"', 'dt = 20\narithmetic = "lattice"'],
   ["gas verlet", gas, "verlet", "dt = 0.001"],
   ["gas stv4 lattice", gas, "stv4", 'dt = 0.001\narithmetic = "lattice"'],
 ];
@@ -89,7 +89,7 @@ const engine = await load_engine(folder);
 const work = mkdtempSync(join(tmpdir(), "hamflow-bits-"));
 const wrong = [];
 for (const [name, problem, method, run] of scenarios) {
-  const toml = `${problem}\n[method]\nname = "${method}"\n\n[run]\n${run}\nsteps = ${steps}\n`;
+  const toml = `${problem}\n[method]\n${method.includes("=") ? method : `name = "${method}"`}\n\n[run]\n${run}\nsteps = ${steps}\n`;
   const file = join(work, "scenario.toml");
   writeFileSync(file, toml);
   const command = JSON.parse(execFileSync(hamflow, ["run", file, "--out", "none", "--quiet", "--json"], { encoding: "utf8" }));
@@ -100,6 +100,8 @@ for (const [name, problem, method, run] of scenarios) {
   if (!same) wrong.push(`${name}: the page has ${JSON.stringify(page?.final ?? facts)}; the command ${JSON.stringify(command.final)}`);
 }
 rmSync(work, { recursive: true });
+const refused = engine.call("open", `${harmonic}\n[method]\nname = "stv4"\n[run]\ndt = 0.1\nsteps = 1\narithmetic = "double-double"\n`, "").errors;
+if (refused?.[0].key !== "run.arithmetic" || refused[0].line === 0) wrong.push(`double-double was not refused at its place: ${JSON.stringify(refused)}`);
 console.log(`${scenarios.length - wrong.length} of ${scenarios.length} scenarios have equal bits`);
 if (wrong.length > 0) {
   console.error(wrong.join("\n"));
