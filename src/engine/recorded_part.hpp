@@ -1,9 +1,12 @@
 // A recorded partial step: Psi_h of a method without memory, with the length h as an input. Walls are located with such
-// parts (docs/design/walls.md), about six for each bounce, each with another length.
+// parts (docs/design/walls.md), about six for each bounce, each with another length. So are points of sections and
+// events.
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <optional>
+#include <utility>
 
 #include "carried.hpp"
 #include "hamflow/core/derivatives.hpp"
@@ -18,6 +21,33 @@ namespace hamflow {
 /// Records a part from a state and a length; nullopt if it branches.
 using PartRecorder = std::function<std::optional<RecordedPart>(const Vector<double, dynamic>& q,
                                                                const Vector<double, dynamic>& p, double h)>;
+
+/// The part of a simulation and its copies, recorded once it is worth it. The copies may be on several threads.
+class SharedPart {
+ public:
+  /// @param recorder empty: no part is recorded
+  explicit SharedPart(PartRecorder recorder) : recorder_(std::move(recorder)) {}
+
+  /// Partial steps on plain numbers; nullopt if there are none, or this was called too few times so far.
+  std::optional<PartsInNumbers> find(const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h) {
+    if (!recorder_) return {};
+    const std::lock_guard lock(mutex_);
+    if (!made_ && ++asked_ == worth_recording) {
+      asked_ = 0;  // another branch may be recorded next time
+      if (std::optional<RecordedPart> recorded = recorder_(q, p, h)) made_.emplace(*std::move(recorded));
+    }
+    return made_;
+  }
+
+ private:
+  /// The number of parts that recording and compiling a part cost.
+  static constexpr int worth_recording = 400;
+
+  PartRecorder recorder_;
+  std::mutex mutex_;
+  std::optional<PartsInNumbers> made_;
+  int asked_ = 0;
+};
 
 /// Calls leaf(x) for every counter in the archives of objects: whole numbers that steps only increment.
 template <class Leaf, class... Objects>

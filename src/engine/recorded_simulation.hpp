@@ -45,7 +45,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
   RecordedSimulation(SimulationOf<P, M, A> simulation, StepRecorder recorder, PartRecorder parts, bool watch)
       : Base(std::move(simulation)),
         recorder_(std::make_shared<const StepRecorder>(std::move(recorder))),
-        part_recorder_(std::make_shared<const PartRecorder>(std::move(parts))),
+        part_(std::make_shared<SharedPart>(std::move(parts))),
         watch_(watch) {}
 
   Outcome advance(std::int64_t steps) override {
@@ -235,8 +235,6 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
   /// The number of steps that recording and compiling a step cost.
   static constexpr std::int64_t worth_recording = 200;
   static constexpr std::int64_t first_block = 32;
-  /// The number of parts that recording and compiling a part cost.
-  static constexpr int worth_recording_parts = 400;
   struct Loop {
     double h = 0;
     AtWalls at_walls = AtWalls::stop;
@@ -258,19 +256,37 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
     return step_;
   }
   [[gnu::cold]] bool make_part(double h) {
-    if (!*part_recorder_ || ++parts_asked_ < worth_recording_parts) return false;
-    parts_asked_ = 0;  // another branch may be recorded next time
-    std::optional<RecordedPart> recorded = (*part_recorder_)(z_.positions(), z_.momenta(), h);
-    if (!recorded) return false;
-    numbers_.emplace(*std::move(recorded));
+    numbers_ = part_->find(z_.positions(), z_.momenta(), h);
+    if (!numbers_) return false;
     Base::restore_state(Place::path);
     is_at_mark_ = true;
     read_state();
     return true;
   }
-  void read_state() {
-    double* value = numbers_->begin();
+  void read_state() { read_state_into(*numbers_); }
+  void read_state_into(PartsInNumbers& numbers) const {
+    double* value = numbers.begin();
     for_each_carried([&](const double& x) { *value++ = x; }, z_);
+  }
+  /// With a recorded part, if there is one, and the same bits.
+  [[gnu::cold]] Outcome show_after(const double& part, const double& t, Frame& frame) const override {
+    if (!looks_) looks_ = part_->find(z_.positions(), z_.momenta(), part);
+    if (looks_) read_state_into(*looks_);
+    if (!looks_ || looks_->look(part) == nullptr) return Base::show_after(part, t, frame);
+    looks_->go();
+    constexpr double most = std::numeric_limits<double>::max();
+    bool finite = std::abs(looks_->energy() - probe_.initial_energy()) <= most;
+    auto z = z_;
+    const double* value = looks_->state();
+    for_each_carried(
+        [&](double& x) {
+          x = *value++;
+          finite = finite && std::abs(x) <= most;
+        },
+        z);
+    if (!finite) return Base::show_after(part, t, frame);
+    Base::show(z, t, looks_->energy(), frame);
+    return Outcome::done;
   }
   void take_numbers(std::int64_t parts) {
     const double* value = numbers_->state();
@@ -361,7 +377,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
   }
 
   std::shared_ptr<const StepRecorder> recorder_;
-  std::shared_ptr<const PartRecorder> part_recorder_;
+  std::shared_ptr<SharedPart> part_;
   bool watch_;
   std::array<std::shared_ptr<const Loop>, 4> loops_;
   std::shared_ptr<const RecordedStep> step_;  // the last recorded step, of length step_of_
@@ -378,8 +394,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>,
   std::span<const NamedExpression> summed_{};   // their values after each step are added to sums_
   std::span<StepSum> sums_{};
   std::optional<PartsInNumbers> numbers_;
-  int parts_asked_ = 0;
-  bool is_at_mark_ = false;  // whether the state is the one saved at Place::path
+  mutable std::optional<PartsInNumbers> looks_;  // for states within a step
+  bool is_at_mark_ = false;                      // whether the state is the one saved at Place::path
 };
 
 }  // namespace hamflow

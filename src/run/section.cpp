@@ -49,12 +49,13 @@ bool SectionSearch::may_hide_zeros(double before, double now, bool bounced) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const double change = now - before;
   const double bend = std::abs(change - last_change_);
-  const double most = safety * std::fmax(bend, last_bend_);
+  const double most = safety * (bend > last_bend_ || std::isnan(last_bend_) ? bend : last_bend_);
   before_last_ = std::isnan(last_change_) ? unknown : before - last_change_;
   last_bend_ = bounced ? unknown : bend;
   last_change_ = bounced ? unknown : change;
   if (std::isnan(most)) return !std::isnan(change);
   if (!(most > 0)) return false;
+  if ((before > most && now > most) || (before < -most && now < -most)) return false;  // nearly always, without roots
   // A parabola with that second derivative through both ends may have two zeros between them.
   if (before == 0 || now == 0 || (before > 0) == (now > 0)) {
     return std::sqrt(std::abs(before)) + std::sqrt(std::abs(now)) <= std::sqrt(most / 2);
@@ -90,17 +91,25 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
   }
   SectionPoint best;
   best.residual = std::numeric_limits<double>::infinity();
+  double theta_of_best = std::numeric_limits<double>::quiet_NaN();
   const auto look = [&](double theta) {
     if (theta != theta) return 0.0;  // near a pole the next guess may be NaN
     failed_ = failed_ || before_step.look_part(theta, partial_) != Outcome::done;
     if (failed_) return 0.0;  // there is no state
     const double x = distance(partial_);
-    if (std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x), partial_.digits};
+    if (std::abs(x) < best.residual) {
+      best.time = partial_.time;  // field by field, without new vectors
+      best.q = partial_.q;
+      best.p = partial_.p;
+      best.residual = std::abs(x);
+      if (!partial_.digits.q.empty()) best.digits = partial_.digits;
+      theta_of_best = theta;
+    }
     return x;
   };
   const double theta = bracketed_root([&](double at) { return failed_ ? 0 : look(at); }, change.from, change.to,
                                       change.before, change.now);
-  (void)look(theta);
+  if (theta != theta_of_best) (void)look(theta);
   if (failed_) return;
   // At a zero of a continuous expression x is at rounding level; at a jump or a pole it is not.
   constexpr double at_most = 0x1p-10;
@@ -190,7 +199,9 @@ void SectionSearch::locate_in_failed_step(const Simulation& before_step, double 
 }
 
 SectionSearch::Sample SectionSearch::sample_of(double theta, const Frame& frame) const {
-  Sample sample{theta, distance(frame), frame.q};
+  Sample sample{theta, distance(frame), {}};
+  sample.state.reserve(frame.q.size() + frame.p.size());
+  sample.state.insert(sample.state.end(), frame.q.begin(), frame.q.end());
   sample.state.insert(sample.state.end(), frame.p.begin(), frame.p.end());
   return sample;
 }
@@ -212,35 +223,36 @@ void SectionSearch::complete(const Simulation& before_step, Piece& piece) {
 /// tolerance of numbers that are otherwise constant are ignored.
 bool SectionSearch::has(const Piece& piece, const std::array<double, 5>& weights, const Sample& sample,
                         double parts) const {
-  const auto range_of = [&](const auto& number) {
-    double low = number(piece[0]);
-    double high = low;
-    for (const Sample& each : piece) {
-      low = std::min(low, number(each));
-      high = std::max(high, number(each));
-    }
-    return std::pair{low, high};
+  using Values = std::array<double, 5>;
+  const auto range_of = [](const Values& values) {
+    std::pair range(values[0], values[0]);
+    for (const double each : values) range = {std::min(range.first, each), std::max(range.second, each)};
+    return range;
   };
-  const auto is_off = [&](const auto& number, double most) {
+  const auto is_off = [&](const Values& values, double there, double most) {
     double sum = 0;
-    for (std::size_t k = 0; k < piece.size(); ++k) sum += weights[k] * number(piece[k]);
-    const auto [low, high] = range_of(number);
+    for (std::size_t k = 0; k < values.size(); ++k) sum += weights[k] * values[k];
+    const auto [low, high] = range_of(values);
     const double size = std::max(std::abs(low), std::abs(high));
-    const double enough = std::max({(high - low) / parts, 1e-6 * most, 1e-9 * size});
-    return std::abs(number(sample) - sum) > enough;  // false for NaN, which bisection does not remove
+    const double enough = std::max(std::max((high - low) / parts, 1e-6 * most), 1e-9 * size);
+    return std::abs(there - sum) > enough;  // false for NaN, which bisection does not remove
+  };
+  const auto numbers = [&](std::size_t i) {
+    return Values{piece[0].state[i], piece[1].state[i], piece[2].state[i], piece[3].state[i], piece[4].state[i]};
   };
   const std::size_t n = sample.state.size() / 2;
   for (const std::size_t first : {std::size_t{0}, n}) {
     double most = 0;  // range of the number that moves most
     for (std::size_t i = first; i < first + n; ++i) {
-      const auto [low, high] = range_of([i](const Sample& each) { return each.state[i]; });
+      const auto [low, high] = range_of(numbers(i));
       most = std::max(most, high - low);
     }
     for (std::size_t i = first; i < first + n; ++i) {
-      if (is_off([i](const Sample& each) { return each.state[i]; }, most)) return false;
+      if (is_off(numbers(i), sample.state[i], most)) return false;
     }
   }
-  return !section_.expression || !is_off([](const Sample& each) { return each.x; }, 0);
+  if (!section_.expression) return true;
+  return !is_off({piece[0].x, piece[1].x, piece[2].x, piece[3].x, piece[4].x}, sample.x, 0);
 }
 
 /// Whether the middle one of five points lies on a cubic through the others, and another point, at a ratio that
@@ -255,17 +267,16 @@ bool SectionSearch::is_cubic(const Simulation& before_step, const Piece& piece, 
 bool SectionSearch::is_long(const Simulation& before_step) {
   if (failed_) return false;
   constexpr std::size_t most_numbers = 20000;  // larger systems would need the memory of several runs
-  std::array<Sample, 5> points;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    points[k] = sample(before_step, static_cast<double>(k) / 4);
-    if (points[k].state.size() > most_numbers) return false;
-  }
-  const auto half_is_long = [&](std::size_t first) {
-    Piece half{points[first], {}, points[first + 1], {}, points[first + 2]};
+  const auto half_is_long = [&](double from) {
+    Piece half;
+    for (const std::size_t k : {0u, 2u, 4u}) {
+      if (!failed_) half[k] = sample(before_step, from + static_cast<double>(k) / 8);
+      if (half[k].state.size() > most_numbers) return false;
+    }
     complete(before_step, half);
     return !failed_ && !is_cubic(before_step, half, 256) && !failed_;
   };
-  const bool found = !failed_ && half_is_long(0) && half_is_long(2);
+  const bool found = half_is_long(0) && half_is_long(0.5);
   failed_ = false;  // the caller does not need this point
   return found;
 }

@@ -48,7 +48,8 @@ constexpr bool takes_recorded_lengths = requires(typename M::template Stepper<P,
   stepper.step(problem, h, z);
 };
 
-/// Records parts of steps for walls that are located; empty if there are none or the method does not support it.
+/// Records parts of steps, with which walls, points of sections and events are located; empty if the method does not
+/// support it.
 template <Capability c, class A, class M>
 PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   using Traced = AnyProblem<Trace<double>, c>;
@@ -56,7 +57,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
   if constexpr (!Separable<Traced> || !takes_recorded_lengths<Traced, TA, M>) {
     return {};
   } else {
-    if (!run.walls || run.walls->rule != WallRule::event) return {};
+    if (run.walls && run.walls->rule != WallRule::event) return {};
     if (run.functions.plain->has_clock()) return {};  // the time at the start of the step is not a constant
     const std::size_t n = run.functions.size;
     return [problem = Traced(n, run.functions.trace), recipe](const Vector<double, dynamic>& q,

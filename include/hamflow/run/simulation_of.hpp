@@ -166,6 +166,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     return Outcome::done;
   }
 
+ protected:
   [[gnu::cold]] Outcome show_after(const Real& part, const Real& t, Frame& frame) const override {
     if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
     M method = method_;
@@ -181,7 +182,6 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     return outcome;
   }
 
- protected:
   /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. A failure is
   /// detected cheaply afterwards; the steps up to the last good one are then repeated from the unchanged originals.
   /// @param h the step of the clock, or of a partial step

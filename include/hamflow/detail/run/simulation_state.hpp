@@ -238,7 +238,11 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   /// Fills `frame` with the state after one step of length `part`, at time t.
   virtual Outcome show_after(const Real& part, const Real& t, Frame& frame) const = 0;
 
-  [[gnu::noinline]] void show(const PhasePoint<A, n>& z, const Real& time, Frame& frame) const {
+  void show(const PhasePoint<A, n>& z, const Real& time, Frame& frame) const {
+    show(z, time, hamflow::energy(problem_, z.positions(), z.momenta()), frame);
+  }
+  /// @param now the energy of z
+  [[gnu::noinline]] void show(const PhasePoint<A, n>& z, const Real& time, const Real& now, Frame& frame) const {
     const auto q = z.positions();
     const auto p = z.momenta();
     frame.step = clock_.steps_taken();
@@ -249,7 +253,6 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       frame.q[i] = static_cast<double>(q[i]);
       frame.p[i] = static_cast<double>(p[i]);
     }
-    const Real now = hamflow::energy(problem_, q, p);
     frame.energy = static_cast<double>(now);
     if constexpr (requires { probe_.least_difference(); }) {
       const Real difference = now - initial_energy_;
