@@ -119,7 +119,10 @@ StateOf<R> start_of(const Typed& typed, const AnyFormula<R>& problem, const Requ
     if (!spec.v.empty()) s.p = ProblemStart<AnyFormula>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };
-  return spec.energy.empty() ? with(R(0)) : with(component_for_energy(energy_line(problem, with), request));
+  if (spec.energy.empty()) return with(R(0));
+  EnergyLine<R> line = energy_line(problem, with);
+  line.is_parabola = model.structure().quadratic_kinetic;  // of the text; it spares a thousand evaluations
+  return with(component_for_energy(line, request));
 }
 
 std::unique_ptr<Simulation> without_time(const EntryModel& model, std::unique_ptr<Simulation> simulation) {
