@@ -15,6 +15,7 @@
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/dual.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/function_set.hpp"
 #include "hamflow/core/math.hpp"
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/number.hpp"

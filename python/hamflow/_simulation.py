@@ -98,6 +98,9 @@ class Simulation:
         Velocities at the start, in place of p.
     arithmetic : str
         "double", "compensated", "double-double", "quad", "mp(50)" or "lattice".
+    functions : str
+        "system": exp, sin, ... of the C library; "portable": with the same bits on every machine. All simulations that
+        exist in a process at a time use the same.
     threads : int
         Number of threads for a problem of many particles.
     parameters : dict, optional
@@ -122,7 +125,7 @@ class Simulation:
     __slots__ = ("_core", "_observers", "coordinates", "momenta", "__weakref__")
 
     def __init__(self, problem: Problem | str | dict[str, Any], /, *, method: str | dict[str, Any] = "stv4", dt: float | str,
-                 q: Any = None, p: Any = None, v: Any = None, arithmetic: str = "double", threads: int = 1,
+                 q: Any = None, p: Any = None, v: Any = None, arithmetic: str = "double", functions: str = "system", threads: int = 1,
                  parameters: dict[str, Any] | None = None) -> None:
         chosen = problem if isinstance(problem, Problem) else Problem(problem)
         initial = {} if v is None else {"v": _list(v)}
@@ -135,6 +138,8 @@ class Simulation:
         run: dict[str, Any] = {"dt": dt, "steps": 1}
         if arithmetic != "double":
             run["arithmetic"] = arithmetic
+        if functions != "system":
+            run["functions"] = functions
         if threads != 1:
             run["threads"] = threads
         self._begin(_core.Simulation(Scenario(problem=table, method=method, run=run)._core))

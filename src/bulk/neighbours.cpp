@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "hamflow/core/math.hpp"
+
 namespace hamflow::bulk {
 
 namespace {
@@ -87,7 +89,7 @@ void Neighbours::lay_cells(const double* q) {
   }
   const double allowed = static_cast<double>(2 * particles_ + 64);
   if (most > allowed) {
-    const double shrink = std::pow(allowed / most, 1 / static_cast<double>(space));
+    const double shrink = pow(allowed / most, 1 / static_cast<double>(space));
     for (std::size_t k = 0; k < space; ++k) {
       cells_[k] = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(cells_[k]) * shrink));
     }

@@ -201,6 +201,7 @@ static bool faster_than_loops(const Program& program) {
 std::unique_ptr<Simulation> make_simulation(const Request& request) { return make_simulation_of(Request(request)); }
 
 std::unique_ptr<Simulation> make_simulation_of(Request request) {
+  const FunctionsInUse functions = request.functions ? FunctionsInUse(*request.functions) : FunctionsInUse();
   const auto problem_entry = find_problem(request);
   const ProblemEntry& problem = *problem_entry;
   check_arithmetic(request.arithmetic);

@@ -10,6 +10,7 @@
 #include "engine/mp_simulation.hpp"
 #include "gas_functions.hpp"
 #include "gas_lattice.hpp"
+#include "hamflow/core/math.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
@@ -271,10 +272,10 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
 /// The request without the texts of its start, which are not kept once they are read: the texts of a million particles
 /// take as much memory as their neighbour lists. (It names every member, so that a new member does not compile.)
 Request without_start(const Request& request) {
-  const auto& [problem, variant, walls, parameters, start, method, dt, arithmetic, position_unit, momentum_unit,
-               threads, watch, record] = request;
-  return {problem,    variant,       walls,         parameters, {},    method, dt,
-          arithmetic, position_unit, momentum_unit, threads,    watch, record};
+  const auto& [problem, variant, walls, parameters, start, method, dt, arithmetic, functions, position_unit,
+               momentum_unit, threads, watch, record] = request;
+  return {problem,    variant,   walls,         parameters,    {},      method, dt,
+          arithmetic, functions, position_unit, momentum_unit, threads, watch,  record};
 }
 
 /// Uses bulk forces if these know the pair law. Steps are then not recorded, since recorded sums have another order.
@@ -363,7 +364,7 @@ bool accepts(const GasShape& shape, const MethodSpec& method) {
 double repulsion_of(const Kind& kind, const Parameters<double>& given) {
   if (kind.shape.pair != usual_pair) return 0;
   const bool usual_form = given.has("sigma") || given.has("epsilon");
-  double least = usual_form ? std::pow(2.0, 1.0 / 6) * (given.has("sigma") ? given["sigma"] : 1) : 1;
+  double least = usual_form ? pow(2.0, 1.0 / 6) * (given.has("sigma") ? given["sigma"] : 1) : 1;
   if (given.has(Keys::cutoff)) least = std::min(least, given[Keys::cutoff]);
   return least / given[Keys::scale];
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hamflow/core/math.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/detail/methods/adaptive_options.hpp"
@@ -55,7 +56,7 @@ inline Texts with_tolerance_of(const Texts& given, int digits) {
   if (digits > 300) {
     all.try_emplace(tolerance_option, "1e-" + std::to_string(std::min(digits, most_digits_of_tolerances) - 4));
   } else if (digits > 0) {
-    all.try_emplace(tolerance_option, shortest(std::pow(10.0, 4 - digits)));
+    all.try_emplace(tolerance_option, shortest(pow(10.0, 4 - digits)));
   }
   return all;
 }

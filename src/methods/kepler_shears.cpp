@@ -90,7 +90,7 @@ std::optional<std::size_t> kepler_shear_parts(double mu, const double* r, const 
     if (error <= rounding) return parts;
     // The error falls with the eighth power of the number of parts. The next try is a tenth below the number that this
     // predicts, so that the smallest one that does is found.
-    const double factor = std::isfinite(error) ? std::clamp(0.9 * std::pow(error / rounding, 0.125), 1.0, 2.0) : 2.0;
+    const double factor = std::isfinite(error) ? std::clamp(0.9 * pow(error / rounding, 0.125), 1.0, 2.0) : 2.0;
     parts = std::max(parts + 1, static_cast<std::size_t>(static_cast<double>(parts) * factor));
   }
   return {};

@@ -9,7 +9,7 @@
 
 namespace hamflow::native {
 
-/// Whether the instruction calls a function of the C library.
+/// Whether the instruction calls a function.
 constexpr bool is_call(Instruction instruction) {
   return is_listed_function(instruction) || instruction == Instruction::atan2 || instruction == Instruction::power ||
          instruction == Instruction::sine_of_both || instruction == Instruction::cosine_of_both;
@@ -28,16 +28,16 @@ constexpr int arity(Instruction instruction) {
 using FunctionOfOne = double (*)(double);
 using FunctionOfTwo = double (*)(double, double);
 
-/// Returns the function of the C library with one argument; null for any other instruction.
+/// Returns the function with one argument; null for any other instruction.
 FunctionOfOne function_of_one(Instruction instruction);
-/// Returns the function of the C library with two arguments; null for any other instruction.
+/// Returns the function with two arguments; null for any other instruction.
 FunctionOfTwo function_of_two(Instruction instruction);
 
 /// Sine and cosine of one number. Computing both costs little more than one of them, and gives the same bits.
 struct SineAndCosine {
   double sine, cosine;  // as the result of a function they are in the first two vector registers
 };
-inline SineAndCosine sine_and_cosine(double x) { return {std::sin(x), std::cos(x)}; }
+inline SineAndCosine sine_and_cosine(double x) { return {sin(x), cos(x)}; }
 
 /// Applies an instruction.   @param b, c ignored if the instruction has fewer operands
 inline double applied(Instruction instruction, double a, double b, double c = 0) {
@@ -47,9 +47,9 @@ inline double applied(Instruction instruction, double a, double b, double c = 0)
     case Instruction::choose:
       return a > 0 ? b : c;
     case Instruction::sine_of_both:
-      return std::sin(a);
+      return sin(a);
     case Instruction::cosine_of_both:
-      return std::cos(a);
+      return cos(a);
     case Instruction::of_lane:
       return a;  // a single number is the only lane
     default:

@@ -28,7 +28,7 @@ std::vector<Point> scanned(const std::function<double(double)>& f) {
   std::vector<double> magnitudes;
   for (int octave = far_octaves - 1; octave >= -far_octaves; --octave) {
     const int parts = octave < near_octaves && octave >= -near_octaves ? 128 : 4;
-    for (int i = parts; i > 0; --i) magnitudes.push_back(std::exp2(octave + static_cast<double>(i) / parts));
+    for (int i = parts; i > 0; --i) magnitudes.push_back(exp2(octave + static_cast<double>(i) / parts));
   }
   std::vector<Point> all;
   const auto look = [&](double x) {

@@ -9,6 +9,7 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/core/math.hpp"
 #include "numerics/outer_root.hpp"
 #include "walls/soft_energy.hpp"
 
@@ -27,7 +28,7 @@ template <class R>
 bool is_parabola(const EnergyLine<R>& line, const R& c, const R& b, const R& a) {
   const R tolerance = R(10000) * std::numeric_limits<R>::epsilon();
   for (int i = -20 * 16; i <= 20 * 16; ++i) {
-    const R magnitude(std::exp2(static_cast<double>(i) / 16));
+    const R magnitude(exp2(static_cast<double>(i) / 16));
     for (const R& x : {magnitude, R(-magnitude)}) {
       const R linear = b * x;
       const R square = a * x * x;

@@ -114,6 +114,13 @@ const RunKeys& run_keys() {
                      .meaning = "number type of the computation; mp(d) has d = 2 to 100000 decimal digits",
                      .type = OptionType::word,
                      .words = arithmetics()},
+      .functions = {.name = "functions",
+                    .default_value = "system",
+                    .meaning = "exp, sin, ... of doubles: of the system's library, or portable, with the same bits on "
+                               "every machine and in the laboratory, which always uses them",
+                    .type = OptionType::word,
+                    .words = {"system", "portable"},
+                    .condition = "with double, compensated, lattice"},
       .lattice = {.name = "lattice",
                   .meaning = "grid spacing of positions and momenta",
                   .type = OptionType::table,
@@ -217,7 +224,7 @@ const std::vector<DeclaredTable>& declared_tables() {
     return std::vector<DeclaredTable>{
         {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
-          r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.lattice, r.threads}},
+          r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.functions, r.lattice, r.threads}},
         {output_table, {o.folder, o.formats, o.figures, o.observables, o.elements}}};
   }();
   return tables;

@@ -24,8 +24,8 @@ struct EventKeys {
   OptionInfo name, expression, direction, action;
 };
 struct RunKeys {
-  OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, threads, lyapunov,
-      eigenvalues, section, events, record_events, map, certificate;
+  OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, functions, lattice, threads,
+      lyapunov, eigenvalues, section, events, record_events, map, certificate;
 };
 struct OutputKeys {
   OptionInfo folder, formats, figures, observables, elements;

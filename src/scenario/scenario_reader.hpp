@@ -47,6 +47,7 @@ class ScenarioReader {
     TomlTable method = root_.table("method");
     TomlTable run = root_.table(run_table);
     TomlTable output = root_.table(output_table);
+    read_functions(run);
     read_problem(problem);
     read_method(method);
     read_run(run);
@@ -123,6 +124,7 @@ class ScenarioReader {
   bool read_method_name(TomlTable& table);
   void complain_of_method(TomlTable& table, const std::string& why_not);
   void check_method_for_size(TomlTable& table);
+  void read_functions(TomlTable& table);
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
   void read_map(TomlTable& table);
@@ -158,6 +160,7 @@ class ScenarioReader {
   StartSpec start_of_bodies_;             // start as expressions that every arithmetic evaluates with all its digits
   BodyList body_list_;                    // bodies of n-body
   Scenario scenario_;
+  std::optional<FunctionsInUse> functions_;
 };
 
 }  // namespace hamflow

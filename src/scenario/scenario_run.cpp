@@ -65,6 +65,19 @@ void ScenarioReader::read_threads(TomlTable& table) {
   }
 }
 
+/// Before everything else, because numbers of a scenario may call functions.
+void ScenarioReader::read_functions(TomlTable& table) {
+  const OptionInfo& key = run_keys().functions;
+  const auto name = table.text(key);
+  const FunctionSet wanted = name == "portable" ? FunctionSet::portable : FunctionSet::system;
+  scenario_.request.functions = wanted;
+  try {
+    functions_.emplace(wanted);
+  } catch (const Error& error) {
+    table.complain(key.name, table.found(key.name) + "; " + error.what());
+  }
+}
+
 void ScenarioReader::read_arithmetic(TomlTable& table) {
   const OptionInfo& key = run_keys().arithmetic;
   const auto name = table.plain_string(key.name);
@@ -79,6 +92,10 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     return;
   }
   scenario_.request.arithmetic = *name;
+  if (scenario_.request.functions == FunctionSet::portable && digits_beyond_double(*name) > 0) {
+    table.complain(run_keys().functions.name, table.found(run_keys().functions.name) + " with " + key.name + " = \"" +
+                                                  *name + "\"; allowed with double, compensated, lattice");
+  }
   if (scenario_.request.problem == SocketKeys::problem && digits_beyond_double(*name) > 0) {
     table.complain(key.name,
                    table.found(key.name) +

@@ -134,6 +134,9 @@ Vary parse_vary(const std::string& text) {
     throw Error("found \"" + text + "\"; " + forms);
   }
   Vary vary{trimmed(text.substr(0, equals)), {}, {}};
+  if (vary.path == run_path(run_keys().functions)) {
+    throw Error("found " + vary.path + "; allowed any other key, because a process computes with one set of functions");
+  }
   const std::string values = text.substr(equals + 1);
   const std::vector<std::string> range = split(values, ':');
   if (range.size() == 1) {

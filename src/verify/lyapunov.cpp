@@ -7,6 +7,7 @@
 
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/math.hpp"
 
 namespace hamflow {
 
@@ -73,7 +74,7 @@ bool TangentFrame::orthonormalise(std::span<double> logs) {
     const double length = std::sqrt(dot(v, v));
     if (!(length > 0 && length <= std::numeric_limits<double>::max())) return false;
     for (double& x : v) x /= length;
-    logs[k] = std::log(length);
+    logs[k] = log(length);
   }
   return true;
 }

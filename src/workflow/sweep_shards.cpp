@@ -11,6 +11,7 @@
 #include <span>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/math.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/detail/core/hash.hpp"
 #include "hamflow/detail/core/option_names.hpp"
@@ -149,9 +150,8 @@ std::uint64_t functions_of_this_machine() {
   std::vector<double> values;
   for (int i = 1; i <= 64; ++i) {
     const double x = 0.1357 * i;
-    for (const double value :
-         {std::sin(x), std::cos(x), std::tan(x), std::exp(x), std::log(x), std::pow(x, 1.7), std::sinh(x), std::cosh(x),
-          std::tanh(x), std::atan(x), std::atan2(x, 1.3), std::asin(x / 16), std::acos(x / 16)}) {
+    for (const double value : {sin(x), cos(x), tan(x), exp(x), log(x), pow(x, 1.7), sinh(x), cosh(x), tanh(x), atan(x),
+                               atan2(x, 1.3), asin(x / 16), acos(x / 16)}) {
       values.push_back(value);
     }
   }

@@ -139,7 +139,7 @@ class DormandPrince853 {
         const double error = error_of(tau, s, clocks_of(problem));
         // NaN: the sub-step left the domain of H.
         if (!(error <= 1)) ++rejected_;
-        const double growth = error < 1e-12 ? 6.0 : 0.9 * std::pow(error, -1.0 / 8.0);
+        const double growth = error < 1e-12 ? 6.0 : 0.9 * pow(error, -1.0 / 8.0);
         proposal = part * (growth > 6 ? 6 : growth > 1.0 / 3.0 ? growth : 1.0 / 3.0);
         if (repeated && error <= 1 && proposal > part) proposal = part;
         if (error <= 1) break;

@@ -180,8 +180,7 @@ class TaylorMethod {
   /// The longest sub-step, in units; NaN: powers of the unit left the range.
   /// @param clocks number of last coordinates that hold the time and do not count for sizes
   double reach(std::size_t clocks) const {
-    const double share = static_cast<double>(std::pow(options_.tolerance, 1.0L / order_)) * std::exp(-2.0 / order_) *
-                         (order_ > 1 ? std::exp(-0.7 / (order_ - 1)) : 0.5);
+    const double share = root_of_tolerance() * exp(-2.0 / order_) * (order_ > 1 ? exp(-0.7 / (order_ - 1)) : 0.5);
     const double most = std::fmax(share, std::fmin(3 * share, 0.9));  // share of the bound by the second half
     double last_two = std::numeric_limits<double>::infinity();
     double second_half = std::numeric_limits<double>::infinity();
@@ -200,6 +199,12 @@ class TaylorMethod {
     if (last_two > 3 * second_half) return second_half * share;
     return std::fmin(last_two * share, second_half * most);
   }
+  double root_of_tolerance() const {
+    if constexpr (std::is_same_v<Base, double>) {
+      if (functions_are_portable()) return pow(static_cast<double>(options_.tolerance), 1.0 / order_);
+    }
+    return static_cast<double>(std::pow(options_.tolerance, 1.0L / order_));
+  }
   /// The end of the entries of a block, without the time.
   std::size_t end_of(std::size_t block, std::size_t clocks) const {
     return block + tape_->inputs / 2 - (block == 0 ? clocks : 0);
@@ -213,7 +218,7 @@ class TaylorMethod {
     for (int k = 0; k < std::min(3, j); ++k) {
       const double size = sizes[static_cast<std::size_t>(k)];
       if (size == none) continue;
-      const double by_k = std::exp2((size - std::fmax(last, smallest)) / (j - k));
+      const double by_k = exp2((size - std::fmax(last, smallest)) / (j - k));
       rho = first ? by_k : std::fmax(rho, by_k);
       first = false;
     }

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "hamflow/core/function_set.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/detail/formula/structure.hpp"
@@ -56,7 +57,8 @@ struct Request {
   MethodSpec method;
   std::string dt = "0.1";
   std::string arithmetic = "double";
-  double position_unit = 0x1p-52;  // lattice spacings, powers of two
+  std::optional<FunctionSet> functions{};  // unset: those in use
+  double position_unit = 0x1p-52;          // lattice spacings, powers of two
   double momentum_unit = 0x1p-52;
   int threads = 1;     // for the forces of one step
   bool watch = true;   // monitors energy and invariants at every step

@@ -82,6 +82,9 @@ class EnsembleBlock {
   virtual std::vector<StepSum> sums(std::size_t /*lane*/) const { return {}; }
   /// Advances the vectors of some lanes together, the same number in each, with the bits of a StepMap.
   virtual void carry(std::span<LaneTangents> jobs) = 0;
+
+ private:
+  FunctionsInUse functions_;
 };
 
 /// Null if members of such a request cannot run in lanes: the steps of the method are not recorded, or the arithmetic

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/function_set.hpp"
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 
@@ -150,6 +151,9 @@ class Simulation {
   /// Shows the state after the part theta of a step, theta in [0, 1], so that events within a step are located to the
   /// rounding of theta h instead of that of the time.
   virtual Outcome look_part(double theta, Frame& frame) const = 0;
+
+ private:
+  FunctionsInUse functions_;
 };
 
 }  // namespace hamflow

@@ -76,7 +76,7 @@ class ExtrapolatedMidpointMethod {
           return Outcome::stopped;
         }
         // growth is NaN if the sub-step left the domain of H.
-        const double growth = 0.8 * std::pow(error, -1.0 / (2 * columns_ - 1));
+        const double growth = 0.8 * pow(error, -1.0 / (2 * columns_ - 1));
         proposal = part * (growth > 4 ? 4 : growth > 0.1 ? growth : 0.1);
         if (repeated && error <= 1 && proposal > part) proposal = part;
         if (error <= 1) break;

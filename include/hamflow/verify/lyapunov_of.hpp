@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/math.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/detail/verify/lyapunov.hpp"
 
@@ -50,7 +51,7 @@ double largest_lyapunov(const P& problem, const Recipe& recipe, const Vector<dou
       z.p[i].slope[0] /= length;
     }
     method.invalidate();  // the cached kick carries a derivative along the vector before it was normalised
-    log = std::log(length);
+    log = hamflow::log(length);
     if (done >= 0) total += log;
     block = steps_between(block, {&log, 1});
     done += now;
