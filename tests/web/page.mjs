@@ -51,12 +51,34 @@ async function typed(page, toml) {
   await page.locator("#y").evaluate((input) => (input.value = ""));
   await forget_status(page);
   await page.locator("#integrate").click();
-  await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of") || document.querySelector("#complaints li"));
+  // The controls wait for the text to be opened.
+  await page.waitForFunction(() => (document.getElementById("status").textContent.startsWith("step 0 of") && !document.getElementById("controls").inert) || document.querySelector("#complaints li"));
 }
 async function picture(page, name) {
   if (pictures === undefined) return;
   mkdirSync(pictures, { recursive: true });
   await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+}
+
+/// What the main thread of the page does meanwhile, in milliseconds of the processor: those of the clock depend on what else runs.
+async function main_thread(page, work) {
+  const session = await browser.newBrowserCDPSession();
+  const events = [];
+  session.on("Tracing.dataCollected", ({ value }) => events.push(...value));
+  const categories = ["toplevel", "devtools.timeline", "disabled-by-default-devtools.timeline", "__metadata"];
+  await session.send("Tracing.start", { traceConfig: { includedCategories: categories }, transferMode: "ReportEvents" });
+  await work();
+  const complete = new Promise((resolve) => session.once("Tracing.tracingComplete", resolve));
+  await session.send("Tracing.end");
+  await complete;
+  await session.detach();
+  const thread = (event) => `${event.pid}/${event.tid}`;
+  const pictures_of = new Map(events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map((event) => [thread(event), []]));
+  for (const event of events) if (event.name === "FireAnimationFrame" && event.tdur !== undefined) pictures_of.get(thread(event))?.push(event.tdur / 1000);
+  const [main, times] = [...pictures_of].sort((a, b) => b[1].length - a[1].length)[0]; // other pages of the browser draw nothing
+  const tasks = events.filter((event) => thread(event) === main && /RunTask/.test(event.name) && event.tdur !== undefined);
+  const sorted = times.sort((a, b) => a - b);
+  return { longest: Math.max(0, ...tasks.map(({ tdur }) => tdur / 1000)), frames: sorted[Math.floor(0.95 * sorted.length)] ?? 0 };
 }
 
 const lattice = `[problem]
@@ -149,6 +171,7 @@ const tests = {
 
   async "clicks into the section of Henon and Heiles become orbits"() {
     const page = await opened();
+    await page.locator("#section-clear").click(); // the starts of the example
     const section = page.locator("#section");
     const box = await section.boundingBox();
     const before = Date.now();
@@ -205,6 +228,135 @@ const tests = {
     expect(page.errors.length === 0, `no errors: ${page.errors}`);
   },
 
+  async "every example has three sentences and a question, and no empty section"() {
+    const folder = join(source, "src/gallery");
+    const names = readdirSync(folder).filter((name) => name.endsWith(".toml")).sort();
+    for (const name of names) {
+      const head = (key) => new RegExp(`^# ${key}: (.*)$`, "m").exec(readFileSync(join(folder, name), "utf8"))?.[1] ?? "";
+      expect(head("look").split(/(?<=[.!?])\s+/).length === 3, `${name}: three sentences: ${head("look")}`);
+      expect(/^[^.]*(\.\d[^.]*)*\?$/.test(head("question")), `${name}: a question: ${head("question")}`);
+    }
+    const page = await opened({ viewport: { width: 360, height: 800 } });
+    for (let i = 0; i < names.length; ++i) {
+      await forget_status(page);
+      await page.locator("#gallery").selectOption(String(i));
+      await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of"));
+      const [question, orbit] = await Promise.all(["question", "orbit"].map((id) => page.locator(`#${id}`).boundingBox()));
+      expect(question.y + question.height < orbit.y, `${names[i]}: the question is above the picture`);
+      expect((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360, `${names[i]}: no wider than 360 px`);
+      if (await page.locator("#section").isVisible()) await page.waitForFunction(() => Number(document.getElementById("section-count").textContent.split(" ")[0]) > 5000, null, { timeout: 60_000 });
+      await page.waitForTimeout(200);
+      expect(/^step 0 of/.test(await text(page, "status")), `${names[i]}: with reduced motion nothing plays by itself: ${await text(page, "status")}`);
+    }
+    expect((await page.locator("#gallery option").count()) === names.length + 1, "all are in the list");
+    await page.locator("#gallery").selectOption({ label: "Sun, Jupiter and Saturn" });
+    await page.waitForFunction(() => document.getElementById("legend").textContent === "SunJupiterSaturn");
+    await page.locator("#gallery").selectOption({ label: "Three bodies from rest" });
+    await page.waitForFunction(() => document.getElementById("legend").textContent === "body 1, mass 3body 2, mass 4body 3, mass 5");
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "examples can be changed while they play"() {
+    const page = await opened({ reducedMotion: "no-preference" });
+    for (const i of [4, 6, 1, 7, 3, 20, 0, 18, 15]) {
+      await page.locator("#gallery").selectOption(String(i));
+      await page.waitForTimeout(120);
+    }
+    await page.waitForFunction(() => /^step [1-9]/.test(document.getElementById("status").textContent) && document.getElementById("play").textContent === "Pause");
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "a slider takes the starts of an example to another energy"() {
+    const page = await opened();
+    await page.waitForFunction(() => Number(document.getElementById("section-count").textContent.split(" ")[0]) > 15000);
+    const energy = page.getByLabel("energy", { exact: true });
+    await energy.fill("0.03"); // some starts need more
+    await energy.press("Enter");
+    await page.waitForFunction(() => /energy = 0.03/.test(document.getElementById("editor").value));
+    await page.waitForFunction(() => { const count = Number(document.getElementById("section-count").textContent.split(" ")[0]); return count > 5000 && count < 18000; });
+    await page.waitForTimeout(1500);
+    const count = Number((await text(page, "section-count")).split(" ")[0]);
+    expect(count < 18000 && count % 2000 === 0, `those that exist: ${count}`);
+    expect((await text(page, "complaints")) === "", `the others are left out: ${await text(page, "complaints")}`);
+  },
+
+  async "what the main thread does is printed"() {
+    const page = await opened({ reducedMotion: "no-preference" });
+    const under = async (what, work) => {
+      const { longest, frames } = await main_thread(page, work);
+      console.log(`  ${what}: longest task ${longest.toFixed(0)} ms, a picture ${frames.toFixed(1)} ms of the processor`);
+    };
+    for (const i of [0, 4, 10]) {
+      await under(`example ${i + 1}`, async () => {
+        await page.locator("#gallery").selectOption(String(i));
+        await page.waitForTimeout(2500);
+      });
+    }
+    await page.locator("#gallery").selectOption("0");
+    await page.waitForTimeout(1000);
+    const section = page.locator("#section");
+    const box = await section.boundingBox();
+    await under("20 starts", async () => {
+      for (let k = 0; k < 20; ++k) await section.click({ position: { x: box.width * (0.3 + 0.02 * k), y: box.height * 0.5 } });
+      await page.waitForTimeout(2500);
+    });
+    await under("zoom and time line", async () => {
+      for (let k = 0; k < 3; ++k) await page.locator("#section-in").click();
+      for (let k = 1; k < 8; ++k) await page.locator("#scrub").fill(String(10 * k));
+    });
+    await under("a map", async () => {
+      await page.locator("#map-figure summary").click();
+      await page.locator("#map-cells").fill("150");
+      await page.locator("#map-paint").click();
+      await page.waitForTimeout(2500);
+    });
+    await under("typing", async () => {
+      await page.locator("#editor").press("Control+End");
+      await page.keyboard.type("\n[output]\nobs", { delay: 30 });
+    });
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
+  async "keys reach every control"() {
+    const page = await opened();
+    await page.locator("#gallery").selectOption({ label: "The spherical pendulum" });
+    await page.waitForFunction(() => document.getElementById("z").value === "z" && document.querySelectorAll("#controls .control").length > 0);
+    for (const summary of await page.locator("summary").all()) {
+      await summary.focus();
+      const is_open = await summary.evaluate((each) => each.parentElement.open);
+      if (!is_open) await page.keyboard.press("Enter");
+    }
+    const controls = await page.evaluate(() => {
+      const all = [...document.querySelectorAll("button, input, select, textarea, summary, canvas[tabindex='0']")].filter((each) => each.checkVisibility() && !each.disabled && !each.closest("[inert], .uplot"));
+      all.forEach((each, i) => (each.dataset.number = i));
+      document.activeElement.blur();
+      return all.length;
+    });
+    const reached = new Set();
+    for (let k = 0; k < controls + 20; ++k) {
+      await page.keyboard.press("Tab");
+      reached.add(await page.evaluate(() => document.activeElement.dataset.number));
+    }
+    reached.delete(undefined);
+    expect(reached.size === controls, `${reached.size} of ${controls} controls are reached`);
+    const pixels = () => page.locator("#orbit").evaluate((canvas) => canvas.toDataURL());
+    const before = await pixels();
+    await page.locator("#orbit").focus();
+    await page.keyboard.press("ArrowRight");
+    await page.waitForTimeout(200);
+    expect(before !== (await pixels()) && /^step 0 of/.test(await text(page, "status")), "arrow keys turn the picture in space");
+    for (const [id, key] of [["play", "Enter"], ["step", " "]]) {
+      await page.locator(`#${id}`).focus();
+      await page.keyboard.press(key);
+    }
+    await page.waitForFunction(() => /^step [1-9]/.test(document.getElementById("status").textContent));
+    await page.locator("#speed").focus();
+    const speed = await text(page, "speed-text");
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction((old) => document.getElementById("speed-text").textContent !== old, speed);
+    expect(page.errors.length === 0, `no errors: ${page.errors}`);
+  },
+
   async "360 px and 768 px are wide enough"() {
     for (const width of [360, 768]) {
       const page = await opened({ viewport: { width, height: 800 }, colorScheme: width === 360 ? "dark" : "light" });
@@ -225,9 +377,20 @@ const tests = {
       await page.waitForTimeout(2500);
       await page.locator("#play").click();
       await page.evaluate(axe);
-      const { violations } = await page.evaluate(() => globalThis.axe.run());
-      const serious = violations.filter((each) => each.impact === "serious" || each.impact === "critical");
-      expect(serious.length === 0, `${colorScheme}: ${serious.map((each) => `${each.id} ${each.nodes.map((node) => node.target).join(", ")}`).join("; ")}`);
+      const check = async (what) => {
+        const { violations } = await page.evaluate(() => globalThis.axe.run());
+        const serious = violations.filter((each) => each.impact === "serious" || each.impact === "critical");
+        expect(serious.length === 0, `${what}, ${colorScheme}: ${serious.map((each) => `${each.id} ${each.nodes.map((node) => node.target).join(", ")}`).join("; ")}`);
+      };
+      await check("a motion");
+      const count = await page.locator("#gallery option").count();
+      for (let i = 0; i < count - 1; ++i) {
+        await forget_status(page);
+        await page.locator("#gallery").selectOption(String(i));
+        await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("step 0 of"));
+        await page.locator("#step").click();
+        await check(`example ${i + 1}`);
+      }
     }
   },
 

@@ -21,9 +21,9 @@ export function csv_of(columns: string[], rows: Iterable<ArrayLike<number>>): st
 
 export function as_python(toml: string): string {
   const text = toml.includes('"""') || toml.includes("\\") ? JSON.stringify(toml) : `"""\n${toml}"""`;
-  return `import hamflow as hf\n\nrun = hf.run(hf.Scenario.from_text(${text}))\nprint(run)\n`;
+  return `import hamflow as hf\n\nscenario = hf.Scenario.from_text(${text})\nscenario.set("run.functions", "portable")  # as in the laboratory\nrun = hf.run(scenario)\nprint(run)\n`;
 }
 
 export function as_command(toml: string): string {
-  return `cat > scenario.toml <<'END'\n${toml.replace(/\n?$/, "\n")}END\nhamflow run scenario.toml\n`;
+  return `cat > scenario.toml <<'END'\n${toml.replace(/\n?$/, "\n")}END\nhamflow run scenario.toml --set run.functions=portable\n`;
 }

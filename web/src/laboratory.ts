@@ -3,6 +3,7 @@ import { Engine } from "./engine/engine";
 import { EnginePool } from "./engine/pool";
 import type { Certificate } from "./engine/protocol";
 import { short } from "./drawing/plane";
+import { gallery } from "./gallery/gallery";
 import type { Inlined } from "./state/inlined";
 import { with_method } from "./state/method";
 import { Motion } from "./state/motion";
@@ -38,7 +39,7 @@ const pause_of_certificates = 25; // times what the last one took: the motion wa
 const numbers_a_frame = 4000; // that rows of a frame may have, more than one row: so that many columns stay fast
 
 export class Laboratory {
-  readonly engine = new Engine();
+  readonly engine = new Engine(gallery[0]!.toml);
   readonly pool = new EnginePool(); // for sections and maps
   private readonly both = [new Motion(this.engine, 0), new Motion(this.engine, 1)];
   motions: Motion[] = []; // open: the scenario, and beside it a second method
@@ -47,6 +48,7 @@ export class Laboratory {
   is_edited = false; // the editor has another text than `toml`
   second = ""; // a method beside that of the scenario; empty: none
   display: Display = { ...usual_display };
+  starts: [number, number][] = []; // of an example: points of the section at which orbits start
   speed = 10 ** 2.5; // steps a second
   playing = false;
   turned_at = -1; // the step at which the motion was reversed; -1: it was not
@@ -54,6 +56,7 @@ export class Laboratory {
   certificates: { method: string; found: Certificate }[] = [];
   returned = ""; // what came back after a reversal
   changed = true; // the views have to draw
+  is_opening = false; // some motions are of the next scenario, others of the one before: there is nothing to draw
   private busy = false; // a request is under way
   private certified_at = 0; // time of the last certificate
   private certificate_pause = least_pause;
@@ -109,7 +112,7 @@ export class Laboratory {
       this.playing = false;
       this.complain(error);
     } finally {
-      this.busy = false;
+      this.busy = this.is_opening = false;
       this.changed = true;
     }
   }
@@ -120,14 +123,15 @@ export class Laboratory {
   }
 
   /// Reads the scenario, and begins its motion. Of several calls the last one counts.
-  /// @param shown what to show, and the method beside it; default: as before
+  /// @param shown what to show, the method beside it, and starts of the section; default: as before
   /// @returns whether the scenario is open
-  async open(toml: string, shown: { display?: Display; second?: string } = {}): Promise<boolean> {
+  async open(toml: string, shown: { display?: Display; second?: string; starts?: [number, number][] } = {}): Promise<boolean> {
     const number = ++this.asked_count;
     let is_open = false;
     await this.when_free(async () => {
       if (number !== this.asked_count) return;
       this.playing = false;
+      this.is_opening = true;
       const [first, other] = this.both as [Motion, Motion];
       await first.open(toml);
       this.toml = toml;
@@ -195,8 +199,7 @@ export class Laboratory {
   /// Shows the rows of a run or the members of a sweep.
   show_recorded(given: Omit<Inlined, "rows">, numbers: Float64Array): void {
     this.playing = false;
-    const rows = new Recording(given.columns.length, Infinity);
-    rows.append(numbers);
+    const rows = Recording.of(given.columns.length, numbers);
     this.recorded = { given, rows };
     this.toml = given.toml;
     this.is_edited = false;
@@ -231,8 +234,9 @@ export class Laboratory {
     this.returned = lines.join("; ");
   }
 
-  /// Judges the motions so far. After a reversal there is nothing to judge.
+  /// Judges the motions so far. After a reversal there is nothing to judge; the first picture does not wait for a judgement.
   private async certify(): Promise<void> {
+    if (!this.engine.has_rest) return;
     if (this.turned_at >= 0 || this.first.facts.map || this.motions.some((motion) => motion.state.failed || motion.state.step === 0)) return;
     const began = performance.now();
     const all: { method: string; found: Certificate }[] = [];

@@ -11,7 +11,8 @@ import { connect_exports } from "./page/exports";
 import { connect_files } from "./page/files";
 import { connect_theme } from "./page/theme";
 import { gallery, type Entry } from "./gallery/gallery";
-import { inlined, rows_of } from "./state/inlined";
+import { inlined } from "./state/inlined";
+import type { View } from "./view";
 import type { FileRows } from "./engine/hdf5_worker";
 import { fragment_of, shared_by } from "./state/link";
 
@@ -63,12 +64,12 @@ async function start_again(): Promise<void> {
 function open_text(toml: string): void {
   show_lesson(null);
   editor.value = toml;
-  void laboratory.open(toml, { display: { ...usual_display }, second: "" });
+  void laboratory.open(toml, { display: { ...usual_display }, second: "", starts: [] });
 }
 function open_example(entry: Entry): void {
   show_lesson(entry);
   editor.value = entry.toml;
-  void laboratory.open(entry.toml, { display: { ...entry.display }, second: entry.second }).then((is_open) => {
+  void laboratory.open(entry.toml, { display: { ...entry.display }, second: entry.second, starts: entry.starts }).then((is_open) => {
     if (!is_open) return;
     laboratory.speed = 10 ** entry.speed;
     if (!is_calm) laboratory.play();
@@ -91,18 +92,17 @@ editor.addEventListener("keydown", (event) => {
 });
 
 async function begin(): Promise<void> {
-  const given = inlined();
-  const shared = await shared_by(location.hash);
+  const [given, shared] = await Promise.all([inlined(), shared_by(location.hash)]);
   if (shared !== null) {
     const { toml, x, y, z, method } = shared;
     editor.value = toml;
     await laboratory.open(toml, { second: method, display: { ...usual_display, x, y, z } });
   } else if (given === null) {
     open_example(gallery[0]!);
-  } else if (given.kind === "scenario") {
-    open_text(given.toml);
+  } else if (given.given.kind === "scenario") {
+    open_text(given.given.toml);
   } else {
-    show_recorded({ given, numbers: await rows_of(given) });
+    show_recorded(given);
   }
   const declarations = (await laboratory.engine.call("declarations")).value;
   const usual = declarations.methods.filter((each) => each.purpose !== "");
@@ -114,14 +114,22 @@ async function begin(): Promise<void> {
   controls.use(declarations);
 }
 
+const time_of_views = 12; // ms a picture of the browser; views that are not drawn by then come with the next one
+let waiting: View[] = [];
+
 function tick(now: number): void {
+  requestAnimationFrame(tick); // first: a view that fails does not stop the clock
   laboratory.tick(now);
-  if (laboratory.changed && !laboratory.is_empty) {
+  if (laboratory.is_empty || laboratory.is_opening) {
+    waiting = [];
+    return;
+  }
+  if (laboratory.changed && waiting.length === 0) {
     laboratory.changed = false;
     clock.draw();
-    for (const view of views) view.draw();
+    waiting = [...views];
   }
-  requestAnimationFrame(tick);
+  for (const began = performance.now(); waiting.length > 0 && performance.now() - began < time_of_views;) waiting.shift()!.draw();
 }
 begin().catch(complain);
 requestAnimationFrame(tick);

@@ -29,6 +29,9 @@ const palette: [number, number, number][] = Array.from({ length: shades }, (_, i
   return [channel(0), channel(8), channel(4)];
 });
 
+/// The same as numbers of an image; the alpha channel comes last.
+const packed = Uint32Array.from(palette, ([red, green, blue]) => (255 << 24) | (blue << 16) | (green << 8) | red);
+
 /// The scale of the numbers: logarithmic if they are positive and span three decades.
 export interface Scale {
   least: number;
@@ -62,12 +65,12 @@ function painted(heat: Heat, scale: Scale): OffscreenCanvas {
   const picture = new OffscreenCanvas(heat.columns, heat.rows);
   const pen = picture.getContext("2d")!;
   const data = pen.createImageData(heat.columns, heat.rows);
+  const pixels = new Uint32Array(data.data.buffer);
   for (let row = 0; row < heat.rows; ++row) {
     for (let column = 0; column < heat.columns; ++column) {
       const value = known(heat, column, row);
       if (value === undefined) continue;
-      const shade = Number.isFinite(value) ? palette[Math.round(position(value, scale) * (shades - 1))]! : [128, 128, 128];
-      data.data.set([...shade, 255], 4 * (column + (heat.rows - 1 - row) * heat.columns));
+      pixels[column + (heat.rows - 1 - row) * heat.columns] = Number.isFinite(value) ? packed[Math.round(position(value, scale) * (shades - 1))]! : 0xff808080;
     }
   }
   pen.putImageData(data, 0, 0);

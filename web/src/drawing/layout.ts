@@ -25,10 +25,11 @@ export function short(x: number): string {
 }
 
 /// The least and the greatest number; nothing if there is none.
-export function extent(values: Iterable<number>): [number, number] | null {
+export function extent(values: ArrayLike<number>): [number, number] | null {
   let least = Infinity;
   let most = -Infinity;
-  for (const value of values) {
+  for (let i = 0; i < values.length; ++i) {
+    const value = values[i]!;
     if (!Number.isFinite(value)) continue;
     if (value < least) least = value;
     if (value > most) most = value;
@@ -48,6 +49,8 @@ export function widened([least, most]: [number, number]): [number, number] {
   const half = size === 0 ? 0.1 : Math.max(0.1 * size, 1e-300);
   return [(least + most) / 2 - half, (least + most) / 2 + half];
 }
+
+const margin = 0.06; // free room beside the curves, on each side of an axis
 
 interface Drawn {
   x: Float64Array;
@@ -69,7 +72,7 @@ function range_of_axis(curves: Drawn[], frame: Framed, axis: "x" | "y"): [number
   const found = extent(ends);
   if (found === null) return [-1, 1];
   const [least, most] = widened(found);
-  const room = 0.06 * (most - least);
+  const room = margin * (most - least);
   return [least - room, most + room];
 }
 
@@ -80,18 +83,20 @@ export function range_of(curves: Drawn[], frame: Framed): Range {
   return { x0, x1, y0, y1 };
 }
 
-/// A range that changes rarely while a motion fills it: it grows by a third when something leaves it.
+/// A range that changes rarely while a motion fills it: a side that something leaves grows by a fifth. The free room
+/// beside the curves may be used up before that.
 export function grown(before: Range | null, wanted: Range): Range {
   if (before === null) return wanted;
   const { x0, x1, y0, y1 } = before;
-  if (wanted.x0 >= x0 && wanted.x1 <= x1 && wanted.y0 >= y0 && wanted.y1 <= y1) return before;
   const out = (least: number, most: number, from: number, to: number): [number, number] => {
-    const room = 0.33 * (Math.max(to, most) - Math.min(from, least));
-    return [from < least ? Math.min(from, least - room) : least, to > most ? Math.max(to, most + room) : most];
+    const free = (margin / (1 + 2 * margin)) * (to - from);
+    const more = 0.2 * (Math.max(to, most) - Math.min(from, least));
+    return [from + free < least ? Math.min(from, least - more) : least, to - free > most ? Math.max(to, most + more) : most];
   };
   const [left, right] = out(x0, x1, wanted.x0, wanted.x1);
   const [low, high] = out(y0, y1, wanted.y0, wanted.y1);
-  return { x0: left, x1: right, y0: low, y1: high };
+  const is_same = left === x0 && right === x1 && low === y0 && high === y1;
+  return is_same ? before : { x0: left, x1: right, y0: low, y1: high };
 }
 
 /// The range of the axes, and where its points are in a picture.
@@ -105,12 +110,13 @@ export interface Layout {
   py: (y: number) => number;
 }
 
-const left = 70;
 const bottom = 42;
+const narrow = 400; // px: a picture of a telephone
 const top = 10;
 
 export function layout(curves: Drawn[], frame: Framed, width: number, height: number, right = 12): Layout {
   let { x0, x1, y0, y1 } = frame.range ?? range_of(curves, frame);
+  const left = width < narrow ? 56 : 70; // for the numbers and the name of the axis
   const wide = Math.max(width - left - right, 1);
   const high = Math.max(height - top - bottom, 1);
   if (frame.equal) {

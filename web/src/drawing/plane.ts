@@ -29,11 +29,13 @@ export function frame_of(x_name: string, y_name: string): Frame {
   return { x_name, y_name, equal: false, walls: [], circle: 0, box: null, start: null, range: null };
 }
 
+const right_room = 10; // px beside the axes
 export const most_drawn = 20_000; // rows of a curve that are drawn; of more, every n-th
 
 export const piece = 100; // segments of a path
 const longest_chord = 60; // px
 const few_points = 300; // fewer are drawn larger
+const many_points = 1000; // more are painted pixel by pixel
 
 /// The color of a name of style.css.
 export function color_of(name: string): string {
@@ -73,7 +75,9 @@ export function draw_axes(pen: CanvasRenderingContext2D, { range, left, top, wid
   pen.textBaseline = "top";
   for (const mark of marks(range.x0, range.x1, Math.max(2, wide / 90))) {
     pen.fillRect(px(mark), top + high, 1, 4);
-    pen.fillText(short(mark), px(mark), top + high + 6);
+    const text = short(mark);
+    const half = pen.measureText(text).width / 2;
+    pen.fillText(text, Math.min(px(mark), left + wide + right_room - half), top + high + 6); // the last one stays in the picture
   }
   pen.textAlign = "right";
   pen.textBaseline = "middle";
@@ -154,10 +158,58 @@ function is_dense({ x, y }: Curve, { px, py }: Layout): boolean {
   }
   return long <= 0.3 * all;
 }
-function draw_points(pen: Pen, curve: Curve, from: number, to: number, { px, py }: Layout): void {
-  const every = Math.max(1, Math.ceil((to - from) / most_drawn));
-  const size = curve.x.length < few_points ? 3 : 1.4;
-  for (let i = from; i < to; i += every) pen.fillRect(px(curve.x[i]!) - size / 2, py(curve.y[i]!) - size / 2, size, size);
+/// A part of the points of a curve.
+interface Points {
+  curve: Curve;
+  from: number;
+  to: number;
+}
+function draw_points(pen: Pen, parts: Points[], size: number, place: Layout): void {
+  if (parts.reduce((sum, { from, to }) => sum + to - from, 0) > many_points) return paint_points(pen, parts, size, place);
+  for (const { curve, from, to } of parts) {
+    pen.fillStyle = curve.color;
+    for (let i = from; i < to; ++i) pen.fillRect(place.px(curve.x[i]!) - size / 2, place.py(curve.y[i]!) - size / 2, size, size);
+  }
+}
+/// The same into an image: 50000 operations of a canvas take the browser 60 ms.
+function paint_points(pen: Pen, parts: Points[], size: number, { px, py }: Layout): void {
+  const { width, height } = pen.canvas;
+  const ratio = pen.getTransform().a;
+  const side = size * ratio;
+  const image = new ImageData(width, height);
+  const pixels = new Uint32Array(image.data.buffer); // alpha, blue, green, red
+  for (const { curve, from, to } of parts) {
+    pen.fillStyle = curve.color;
+    const rgb = parseInt(String(pen.fillStyle).slice(1), 16); // the canvas writes every color as #rrggbb
+    const color = ((rgb & 0xff) << 16) | (rgb & 0xff00) | (rgb >> 16);
+    const every = Math.max(1, Math.ceil((to - from) / most_drawn));
+    for (let i = from; i < to; i += every) {
+      const x = px(curve.x[i]!) * ratio - side / 2;
+      const y = py(curve.y[i]!) * ratio - side / 2;
+      if (!(x > -side && x < width && y > -side && y < height)) continue;
+      const left = Math.max(0, Math.floor(x));
+      const right = Math.min(width - 1, Math.floor(x + side));
+      const low = Math.min(height - 1, Math.floor(y + side));
+      for (let row = Math.max(0, Math.floor(y)); row <= low; ++row) {
+        const high = Math.min(row + 1, y + side) - Math.max(row, y); // the part of the pixel that is covered
+        for (let column = left; column <= right; ++column) {
+          const part = high * (Math.min(column + 1, x + side) - Math.max(column, x));
+          const at = row * width + column;
+          pixels[at] = (Math.max(pixels[at]! >>> 24, Math.round(255 * part)) << 24) | color;
+        }
+      }
+    }
+  }
+  const layer = new OffscreenCanvas(width, height);
+  layer.getContext("2d")!.putImageData(image, 0, 0);
+  put(pen, layer);
+}
+/// Puts a picture of the same size over this one.
+function put(pen: Pen, layer: OffscreenCanvas): void {
+  pen.save();
+  pen.setTransform(1, 0, 0, 1, 0, 0);
+  pen.drawImage(layer, 0, 0);
+  pen.restore();
 }
 function draw_discs(pen: CanvasRenderingContext2D, curve: Curve, { px, py }: Layout): void {
   const radius = Math.max(2, px(curve.radius) - px(0));
@@ -169,41 +221,46 @@ function draw_discs(pen: CanvasRenderingContext2D, curve: Curve, { px, py }: Lay
   pen.fill();
 }
 
-type Draw = typeof draw_line;
-function path_of(curve: Curve, place: Layout): Draw {
-  return curve.kind === "line" && is_dense(curve, place) ? draw_line : draw_points;
-}
+const is_line = (curve: Curve, place: Layout): boolean => curve.kind === "line" && is_dense(curve, place);
+const size_of_points = (curves: Curve[]): number => (curves.reduce((sum, { x }) => sum + x.length, 0) < few_points ? 3 : 1.4);
 
 /// What a canvas shows of curves that grow, without axes: so that each picture draws only the new rows.
 interface Trail {
   layer: OffscreenCanvas;
   key: string;
+  looks: string[]; // of each curve
   drawn: number[]; // rows of each curve
 }
 const trails = new WeakMap<HTMLCanvasElement, Trail>();
 
-/// Draws the new rows of curves whose rows all are shown, over those of the picture before.
+/// Draws the new rows of these curves over those of the picture before.
 function draw_trails(canvas: HTMLCanvasElement, pen: CanvasRenderingContext2D, curves: Curve[], place: Layout, version: string): void {
-  const paths = curves.map((curve) => path_of(curve, place));
-  const key = JSON.stringify([version, place.range, canvas.width, canvas.height, curves.map(({ color }) => color), paths.map((path) => path === draw_line)]);
+  const size = size_of_points(curves);
+  const lines = curves.map((curve) => is_line(curve, place));
+  const looks = curves.map(({ color }, i) => `${color} ${lines[i] ? "line" : size}`);
+  const key = JSON.stringify([version, place.range, canvas.width, canvas.height]);
   let trail = trails.get(canvas);
-  if (trail === undefined || trail.key !== key || curves.some((curve, i) => curve.x.length < trail!.drawn[i]!)) {
-    trail = { layer: new OffscreenCanvas(canvas.width, canvas.height), key, drawn: curves.map(() => 0) };
+  const goes_on = (before: Trail): boolean => before.key === key && before.drawn.every((rows, i) => rows <= (curves[i]?.x.length ?? -1) && (rows === 0 || before.looks[i] === looks[i]));
+  if (trail === undefined || !goes_on(trail)) {
+    trail = { layer: new OffscreenCanvas(canvas.width, canvas.height), key, looks, drawn: [] };
     trails.set(canvas, trail);
   }
+  trail.looks = looks;
   const layer_pen = trail.layer.getContext("2d")!;
   layer_pen.setTransform(pen.getTransform());
+  const points: Points[] = [];
   curves.forEach((curve, i) => {
-    layer_pen.strokeStyle = layer_pen.fillStyle = curve.color;
+    const before = trail.drawn[i] ?? 0;
+    const to = curve.x.length;
+    trail.drawn[i] = to;
+    if (to > before && !lines[i]) points.push({ curve, from: before, to });
+    if (to <= before || !lines[i]) return;
+    layer_pen.strokeStyle = curve.color;
     layer_pen.lineWidth = 1.2;
-    paths[i]!(layer_pen, curve, Math.max(0, trail.drawn[i]! - 1), curve.x.length, place);
-    trail.drawn[i] = curve.x.length;
+    draw_line(layer_pen, curve, Math.max(0, before - 1), to, place);
   });
-  pen.save();
-  pen.setTransform(1, 0, 0, 1, 0, 0);
-  pen.drawImage(trail.layer, 0, 0);
-  pen.restore();
-  for (const curve of curves) if (curve.mark >= 0 && curve.x.length > 0) draw_mark(pen, curve, curve.x.length - 1, place);
+  draw_points(layer_pen, points, size, place);
+  put(pen, trail.layer);
 }
 function draw_mark(pen: CanvasRenderingContext2D, curve: Curve, row: number, { px, py }: Layout): void {
   pen.fillStyle = curve.color;
@@ -216,16 +273,16 @@ function draw_curve(pen: CanvasRenderingContext2D, curve: Curve, place: Layout):
   pen.strokeStyle = pen.fillStyle = curve.color;
   pen.lineWidth = 1.2;
   if (curve.kind === "discs") return draw_discs(pen, curve, place);
-  const draw = path_of(curve, place);
+  const with_line = is_line(curve, place);
+  const draw = (from: number, to: number): void => (with_line ? draw_line(pen, curve, from, to, place) : draw_points(pen, [{ curve, from, to }], size_of_points([curve]), place));
   const last = curve.x.length - 1;
   const shown = curve.mark >= 0 ? Math.min(curve.mark, last) : last;
   if (shown < last) {
     pen.globalAlpha = 0.25;
-    draw(pen, curve, shown, last + 1, place);
+    draw(shown, last + 1);
     pen.globalAlpha = 1;
   }
-  draw(pen, curve, 0, shown + 1, place);
-  if (curve.mark >= 0 && curve.x.length > 0) draw_mark(pen, curve, shown, place);
+  draw(0, shown + 1);
 }
 
 /// @param version stays as long as rows only follow those before; empty: draws everything anew
@@ -239,9 +296,17 @@ export function draw_plane(canvas: HTMLCanvasElement, curves: Curve[], frame: Fr
   pen.rect(left, top, wide, high);
   pen.clip();
   draw_walls(pen, place, frame);
-  const all_shown = curves.every((curve) => curve.kind !== "discs" && (curve.mark < 0 || curve.mark >= curve.x.length - 1));
-  if (version !== "" && all_shown) draw_trails(canvas, pen, curves, place, version);
-  else for (const curve of curves) draw_curve(pen, curve, place);
+  const is_trail = (curve: Curve): boolean => version !== "" && curve.kind !== "discs" && (curve.mark < 0 || curve.mark >= curve.x.length - 1);
+  const whole = curves.filter(is_trail);
+  if (whole.length > 0) draw_trails(canvas, pen, whole, place, version);
+  for (const curve of curves) if (!is_trail(curve)) draw_curve(pen, curve, place);
+  pen.restore();
+  // A mark at an edge is whole.
+  pen.save();
+  pen.beginPath();
+  pen.rect(left - 6, top - 6, wide + 12, high + 12);
+  pen.clip();
+  for (const curve of curves) if (curve.mark >= 0 && curve.x.length > 0 && curve.kind !== "discs") draw_mark(pen, curve, Math.min(curve.mark, curve.x.length - 1), place);
   if (frame.start !== null) {
     pen.strokeStyle = color_of("--ink");
     pen.lineWidth = 1.5;

@@ -82,7 +82,7 @@ export class Plot {
         width: this.parent.clientWidth,
         height,
         scales: { x: { time: false }, y: { range: (_, least, most) => this.range(least, most) } },
-        axes: [{ ...axis, label: x_name, labelSize: 16, labelFont: "12px system-ui, sans-serif", size: 28 }, { ...axis, size: 78 }],
+        axes: [{ ...axis, label: x_name, labelSize: 16, labelFont: "12px system-ui, sans-serif", size: 28 }, { ...axis, size: 78, space: 22 }],
         series: [{}, ...data.slice(1).map((_, i) => ({ stroke: color_of(colors[i] ?? "--faint"), width: 1.2, points: { show: false } }))],
         cursor: { show: false },
         legend: { show: false },

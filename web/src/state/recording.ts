@@ -16,6 +16,17 @@ export class Recording {
     this.numbers = new Float64Array(this.room * width);
   }
 
+  /// All of these rows.
+  static of(width: number, rows: Float64Array): Recording {
+    const all = new Recording(width, Infinity);
+    all.count = all.room = Math.floor(rows.length / width);
+    all.numbers = new Float64Array(all.room * width);
+    for (let row = 0, at = 0; row < all.count; ++row) {
+      for (let column = 0; column < width; ++column) all.numbers[column * all.room + row] = rows[at++]!;
+    }
+    return all;
+  }
+
   /// @param rows numbers row after row
   append(rows: Float64Array): void {
     for (let at = 0; at + this.width <= rows.length; at += this.width) {

@@ -10,6 +10,7 @@ import { entries_of, span_of_key, toml_number, with_value } from "../state/toml_
 import type { MakeView, View } from "../view";
 
 const time_of_a_request = 120; // ms; then the picture shows more cells
+const pause_of_pictures = 250; // ms
 const names: Record<string, string> = { lyapunov: "Lyapunov exponent", energy_error: "energy error", relative_energy_error: "relative energy error", bounces: "bounces" };
 
 interface Axis {
@@ -56,6 +57,7 @@ class MapView implements View {
   private readonly begun = new WeakMap<Engine, Painting>(); // which map an engine knows
   private shown: Shown | undefined;
   private changed = true;
+  private drawn_at = 0;
   private cross: [number, number] | null = null;
   private readonly field = (id: string): HTMLInputElement & HTMLSelectElement => this.root.querySelector(`#map-${id}`)!;
 
@@ -174,7 +176,7 @@ class MapView implements View {
       heat.coarse[cell] = 1 + task.spacing;
     });
     painting.left = Math.max(0, painting.left - rows.length);
-    this.ask_to_draw();
+    if (performance.now() - this.drawn_at > pause_of_pictures) this.ask_to_draw(); // the last cells are drawn by paint()
     return rows.length;
   }
 
@@ -204,6 +206,7 @@ class MapView implements View {
     const { painting } = this;
     if (!this.changed || painting === null || this.canvas.clientWidth === 0) return;
     this.changed = false;
+    this.drawn_at = performance.now();
     this.shown = draw_heat(this.canvas, painting.heat, this.cross);
     const all = painting.heat.values.length;
     this.field("paint").textContent = painting.left > 0 ? "Stop" : "Paint";

@@ -49,9 +49,14 @@ class Orbit implements View {
     }
     this.canvas.addEventListener("pointermove", (event) => {
       if (this.is_plane || (event.buttons & 1) === 0) return;
-      this.look.turn -= event.movementX * 0.01;
-      this.look.tilt = Math.max(-1.5, Math.min(1.5, this.look.tilt + event.movementY * 0.01));
-      laboratory.changed = true;
+      this.turn(-event.movementX * 0.01, event.movementY * 0.01);
+    });
+    this.canvas.addEventListener("keydown", (event) => {
+      const [turn, tilt] = { ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key] ?? [0, 0];
+      if (this.is_plane || turn === tilt) return;
+      event.preventDefault();
+      event.stopPropagation(); // the right arrow steps elsewhere
+      this.turn(turn!, tilt!);
     });
     new ResizeObserver(() => (laboratory.changed = true)).observe(this.canvas);
     element("save-svg").onclick = () => {
@@ -61,6 +66,11 @@ class Orbit implements View {
     element("save-png").onclick = () => this.canvas.toBlob((picture) => picture && save("orbit.png", picture));
   }
 
+  private turn(turn: number, tilt: number): void {
+    this.look.turn += turn;
+    this.look.tilt = Math.max(-1.5, Math.min(1.5, this.look.tilt + tilt));
+    this.laboratory.changed = true;
+  }
   private choose_columns(): void {
     this.forget_ranges();
     void this.laboratory.show(this.input("x").value, this.input("y").value, this.input("z").value);
@@ -114,7 +124,7 @@ class Orbit implements View {
     if (!this.shows_bodies) {
       this.add_walls(frame);
       frame.start = this.handle.place();
-      const is_turned = display.turns && display.x !== tracks[0]!.columns[0];
+      const { is_turned } = this;
       const x_of = (track: Track): Float64Array => (is_turned ? at(track, display.x).map(within_turn) : at(track, display.x));
       const curves = tracks.map((track, i): Curve => ({ x: x_of(track), y: at(track, display.y), color: this.colors(i, 0), kind: track.joined && !is_turned ? "line" : "points", radius: 0, mark: marked(track) }));
       return { curves, frame };
@@ -127,6 +137,11 @@ class Orbit implements View {
     return { curves, frame };
   }
 
+  /// Whether x is an angle that is drawn from -pi to pi.
+  private get is_turned(): boolean {
+    const { display, tracks } = this.laboratory;
+    return display.turns && !this.shows_bodies && display.x !== tracks[0]!.columns[0];
+  }
   private get is_gas(): boolean {
     return this.particles !== null || this.body_columns(this.laboratory.tracks[0]!).length > most_paths;
   }
@@ -193,7 +208,11 @@ class Orbit implements View {
 
   draw(): void {
     this.draw_legend();
-    this.canvas.classList.toggle("turns", !this.is_plane);
+    if (this.canvas.classList.contains("turns") === this.is_plane) {
+      this.canvas.classList.toggle("turns", !this.is_plane);
+      this.canvas.tabIndex = this.is_plane ? -1 : 0;
+      this.canvas.setAttribute("aria-label", this.is_plane ? "Orbit" : "Orbit in space; the arrow keys turn it");
+    }
     if (this.canvas.clientWidth === 0) return;
     if (!this.is_plane) {
       const { curves, names } = this.space();
@@ -212,14 +231,27 @@ class Orbit implements View {
   private range_for(curves: Curve[], frame: Frame): Range {
     const found = grown(this.range, range_of(curves, frame));
     const track = this.laboratory.tracks[0]!;
+    if (this.is_turned) return { ...found, x0: -Math.PI, x1: Math.PI };
     if (this.shows_bodies || this.laboratory.display.x !== track.columns[0] || track.rows.count < 2) return found;
     return { ...found, x0: track.rows.at(0, 0), x1: track.rows.at(track.rows.count - 1, 0) }; // time has no room at its sides
+  }
+
+  /// The names that the scenario gives, else numbers; with the masses, if these differ.
+  private body_names(): string[] {
+    const { recorded, motions } = this.laboratory;
+    const settings = recorded === null ? motions[0]!.facts.settings : [];
+    const text = (path: string): string => settings.find((each) => each.path === path)?.text ?? "";
+    const names = Array.from(text("problem.bodies").matchAll(/\bname\s*=\s*["']([^"']*)["']/g), (found) => found[1]!);
+    const masses = text("problem.masses").match(/[^\s,[\]]+/g) ?? [];
+    const columns = this.body_columns(this.laboratory.tracks[0]!);
+    const has_masses = masses.length === columns.length && new Set(masses).size > 1;
+    return columns.map((_, i) => (names.length === columns.length ? names[i]! : `body ${i + 1}${has_masses ? `, mass ${masses[i]}` : ""}`));
   }
 
   private draw_legend(): void {
     const { motions, recorded } = this.laboratory;
     const gas = this.shows_bodies && this.is_gas && this.is_plane;
-    const bodies = this.shows_bodies && !gas ? this.body_columns(this.laboratory.tracks[0]!).map((_, i) => `body ${i + 1}`) : [];
+    const bodies = this.shows_bodies && !gas ? this.body_names() : [];
     const names = gas ? ["left half at the start", "right half"] : recorded === null && motions.length > 1 ? motions.map((motion) => motion.facts.method) : bodies;
     const legend = this.root.querySelector<HTMLElement>("#legend")!;
     legend.hidden = names.length === 0;
