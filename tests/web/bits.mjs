@@ -1,9 +1,10 @@
-// The engine of the laboratory and the command compute the same bits, for scenarios of + - * / and sqrt.
+// The engine of the laboratory and the command compute the same bits, for scenarios of + - * / and sqrt, and with portable functions.
 //   node bits.mjs HAMFLOW FOLDER      FOLDER: build/web
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { load_engine } from "./engine.mjs";
 
 const [hamflow, folder] = process.argv.slice(2);
@@ -37,6 +38,13 @@ const harmonic = named("harmonic", "q = [1], p = [0.5]");
 const magnetic = named("magnetic", "q = [0.4, -0.3, 0.2], p = [0.5, 0.3, 0.4]", "field = [0.1, 0.2, 1]\n");
 const molecule = named("lennard-jones-oscillator", "q = [1.5], p = [0]");
 const planets = named("solar-system", "", 'planets = "outer"\n');
+
+const rotors = formula(["q1", "q2"], "p1^2/2 + p2^2/2 - cos(q1) - cos(q2) + exp(-(q1 - q2)^2) + 0.1*tanh(q1)", "q = [0.3, 1.1], p = [0.7, -0.2]");
+const functions = formula(["q1"], "p1^2/2 + q1^4 + log(2 + sin(q1)) + cosh(q1/3) + sinh(q1)^2/9 + atan(q1) + asin(q1/9) - acos(q1/9) + tan(q1/9) + (2 + q1)^1.7 + atan2(q1, 3)",
+  "q = [0.4], p = [0.5]");
+const pendulum = named("pendulum", "q = [1.2], p = [0.4]");
+const toda = formula(["q1", "q2", "q3"], "(p1^2 + p2^2 + p3^2)/2 + exp(q1 - q2) + exp(q2 - q3) + exp(q3 - q1)", "q = [0.1, 0.4, -0.5], p = [0.3, -0.2, 0.1]");
+const portable = 'functions = "portable"';
 
 /// name, problem, method or the keys of [method], run
 const scenarios = [
@@ -80,6 +88,16 @@ const scenarios = [
   ["molecule dop853", molecule, "dop853", "dt = 0.02"],
   ["planets wisdom-holman", planets, "wisdom-holman", "dt = 20"],
   ["planets wisdom-holman lattice", planets, 'name = "wisdom-holman"\ncoordinates = "democratic-heliocentric"', 'dt = 20\narithmetic = "lattice"'],
+  ["rotors stv4", rotors, "stv4", `dt = 0.05\n${portable}`],
+  ["rotors cg", rotors, 'name = "cg"\nquadrature = "3"', `dt = 0.05\n${portable}`],
+  ["rotors dop853", rotors, "dop853", `dt = 0.1\n${portable}`],
+  ["rotors lattice", rotors, "verlet", `dt = 0.05\narithmetic = "lattice"\n${portable}`],
+  ["all functions stv4", functions, "stv4", `dt = 0.05\n${portable}`],
+  ["all functions gauss", functions, "gauss", `dt = 0.05\n${portable}`],
+  ["all functions taylor", functions, "taylor", `dt = 0.1\n${portable}`],
+  ["pendulum yoshida6", pendulum, "yoshida6", `dt = 0.1\n${portable}`],
+  ["pendulum taylor", pendulum, "taylor", `dt = 0.1\n${portable}`],
+  ["toda kahan-li8", toda, "kahan-li8", `dt = 0.05\n${portable}`],
   ["gas verlet", gas, "verlet", "dt = 0.001"],
   ["gas stv4 lattice", gas, "stv4", 'dt = 0.001\narithmetic = "lattice"'],
 ];
@@ -88,21 +106,31 @@ const steps = 1000;
 const engine = await load_engine(folder);
 const work = mkdtempSync(join(tmpdir(), "hamflow-bits-"));
 const wrong = [];
-for (const [name, problem, method, run] of scenarios) {
-  const toml = `${problem}\n[method]\n${method.includes("=") ? method : `name = "${method}"`}\n\n[run]\n${run}\nsteps = ${steps}\n`;
+
+/// @returns where the engine and the command differ; empty: nowhere
+function difference(engine, toml, steps) {
   const file = join(work, "scenario.toml");
   writeFileSync(file, toml);
-  const command = JSON.parse(execFileSync(hamflow, ["run", file, "--out", "none", "--quiet", "--json"], { encoding: "utf8" }));
+  const command = JSON.parse(execFileSync(hamflow, ["run", file, "--set", `run.steps=${steps}`, "--out", "none", "--quiet", "--json"], { encoding: "utf8" }));
   const facts = engine.call("open", toml, "");
   const page = facts.errors ? null : engine.call("advance", steps, steps);
   // The texts are the shortest that read back as the same double, so that equal numbers are equal bits.
   const same = page !== null && JSON.stringify([page.final.q, page.final.p]) === JSON.stringify([command.final.q, command.final.p]);
-  if (!same) wrong.push(`${name}: the page has ${JSON.stringify(page?.final ?? facts)}; the command ${JSON.stringify(command.final)}`);
+  return same ? "" : `the page has ${JSON.stringify(page?.final ?? facts)}; the command ${JSON.stringify(command.final)}`;
 }
+
+for (const [name, problem, method, run] of scenarios) {
+  const toml = `${problem}\n[method]\n${method.includes("=") ? method : `name = "${method}"`}\n\n[run]\n${run}\nsteps = ${steps}\n`;
+  const found = difference(engine, toml, steps);
+  if (found !== "") wrong.push(`${name}: ${found}`);
+}
+console.log(`${scenarios.length - wrong.length} of ${scenarios.length} scenarios have equal bits`);
+const first_example = readFileSync(join(dirname(fileURLToPath(import.meta.url)), "../../web/src/gallery/01_henon_heiles.toml"), "utf8").replace(/^(# .*\n)+/, "").trimStart(); // as the page has it
+const of_first_part = difference(await load_engine(folder, null), first_example, 5000);
+if (of_first_part !== "") wrong.push(`the first part of the engine alone: ${of_first_part}`);
 rmSync(work, { recursive: true });
 const refused = engine.call("open", `${harmonic}\n[method]\nname = "stv4"\n[run]\ndt = 0.1\nsteps = 1\narithmetic = "double-double"\n`, "").errors;
 if (refused?.[0].key !== "run.arithmetic" || refused[0].line === 0) wrong.push(`double-double was not refused at its place: ${JSON.stringify(refused)}`);
-console.log(`${scenarios.length - wrong.length} of ${scenarios.length} scenarios have equal bits`);
 if (wrong.length > 0) {
   console.error(wrong.join("\n"));
   process.exit(1);

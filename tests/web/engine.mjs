@@ -2,10 +2,24 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 
-export async function load_engine(folder) {
+/// @param rest the second part (web/split.mjs); null: an error when it is needed
+export async function load_engine(folder, rest = "engine-rest.wasm") {
   const make = createRequire(import.meta.url)(resolve(folder, "engine.js"));
-  const module = await make({ wasmBinary: readFileSync(join(folder, "engine.wasm")) });
+  const { instantiate } = await import(pathToFileURL(resolve(folder, "parts.mjs")));
+  const compiled = (name) => new WebAssembly.Module(readFileSync(join(folder, name)));
+  const module = await make({
+    instantiateWasm(imports, done) {
+      const first = compiled("engine.wasm");
+      const instance = instantiate(first, imports, () => {
+        if (rest === null) throw new Error("a function of the second part is called");
+        return compiled(rest);
+      });
+      done(instance, first);
+      return instance.exports;
+    },
+  });
   const stored = (text) => {
     const bytes = module.lengthBytesUTF8(text) + 1;
     const address = module._malloc(bytes);

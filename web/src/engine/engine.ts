@@ -1,6 +1,7 @@
 // The engine as the page sees it: a worker whose functions return promises.
 import worker_source from "worker-source";
-import type { CallName, Calls, Complaint, Question, Reply } from "./protocol";
+import { address_of_rest, first_part, rest_part } from "./data";
+import type { CallName, Calls, Complaint, Part, Question, Reply } from "./protocol";
 
 /// The reader's messages, or one of the engine.
 export class EngineError extends Error {
@@ -15,42 +16,57 @@ export interface Answer<Name extends CallName> {
   points: Float64Array;
 }
 
-/// The bytes of a file: inside this page, compressed (laboratory.html), or beside it.
-export async function asset_bytes(id: string, file: string): Promise<ArrayBuffer> {
-  const inlined = document.getElementById(id);
-  if (inlined === null) return (await fetch(file)).arrayBuffer();
-  const packed = await fetch(`data:application/octet-stream;base64,${inlined.textContent!.trim()}`);
-  return new Response(packed.body!.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-}
-
-let compiled: Promise<WebAssembly.Module> | undefined;
+const pause = 300; // ms from the first steps to loading the rest, so that the first pictures are drawn before
 
 export class Engine {
   private readonly worker: Worker;
   private readonly waiting = new Map<number, (response: Reply) => void>();
   private next_id = 0;
   private readonly ready: Promise<void>;
+  private is_at_first = false; // the scenario is the one that the first part suffices for
+  private has_advanced = false;
+  has_rest = false;
 
-  constructor() {
+  /// @param first_scenario the one with which web/split.mjs has found the first part
+  constructor(private readonly first_scenario = "") {
     this.worker = new Worker(URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" })));
     this.worker.onmessage = (event: MessageEvent<Reply>) => {
       const resolve = this.waiting.get(event.data.id);
       this.waiting.delete(event.data.id);
       resolve?.(event.data);
     };
-    compiled ??= asset_bytes("engine", "engine.wasm").then((bytes) => WebAssembly.compile(bytes));
-    this.ready = compiled.then((module) => this.worker.postMessage(module));
+    this.ready = Promise.all([first_part(), address_of_rest()]).then(([first, address]) => this.post({ first, rest_address: address }));
   }
 
   async call<Name extends CallName>(call: Name, motion = 0, ...args: Calls[Name]["args"]): Promise<Answer<Name>> {
+    if (!this.has_rest && !this.first_suffices(call, args)) await this.add_rest();
     await this.ready;
     const request: Question = { id: this.next_id++, call, motion, args };
     const response = await new Promise<Reply>((resolve) => {
       this.waiting.set(request.id, resolve);
-      this.worker.postMessage(request);
+      this.post(request);
     });
+    if (call === "advance" && !this.has_advanced) {
+      this.has_advanced = true;
+      setTimeout(() => void this.add_rest().catch(() => {}), pause); // a call that needs the rest tries again, and reports it
+    }
     const value = JSON.parse(response.json) as Calls[Name]["answer"] & { errors?: Complaint[] };
     if (value.errors !== undefined) throw new EngineError(value.errors);
     return { value, rows: response.rows ?? new Float64Array(), points: response.points ?? new Float64Array() };
+  }
+
+  /// What web/split.mjs has asked, too.
+  private first_suffices(call: CallName, args: (string | number)[]): boolean {
+    if (call === "open") this.is_at_first = args[0] === this.first_scenario;
+    return call === "declarations" || (this.is_at_first && (["open", "state", "advance"].includes(call) || (call === "show" && args[0] === "")));
+  }
+  private async add_rest(): Promise<void> {
+    const module = await rest_part();
+    if (this.has_rest) return;
+    this.has_rest = true;
+    this.post({ rest: module });
+  }
+  private post(message: Part | Question): void {
+    this.worker.postMessage(message);
   }
 }

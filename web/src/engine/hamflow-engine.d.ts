@@ -25,9 +25,15 @@ declare module "worker-source" {
   export default source;
 }
 
+/// The bundled source of data_worker.ts (build.mjs).
+declare module "data-worker-source" {
+  const source: string;
+  export default source;
+}
+
 /// The files *.toml of src/gallery in the order of their names (build.mjs).
 declare module "gallery-files" {
-  export const files: { name: string; text: string }[];
+  export const files: { name: string; heads: Record<string, string>; toml: string }[];
 }
 
 /// The views of src/views in the order of their names (build.mjs).

@@ -136,6 +136,9 @@ export interface Calls {
 }
 export type CallName = keyof Calls;
 
+/// What a worker gets beside questions: the first part of the engine, and the rest, which may come later.
+export type Part = { first: WebAssembly.Module; rest_address: string } | { rest: WebAssembly.Module };
+
 export interface Question {
   id: number;
   call: CallName;

@@ -1,15 +1,29 @@
-// The worker: one instance of the engine. It gets the compiled module first, then requests, and answers each of them.
+// The worker: one instance of the engine. It gets the compiled modules of its parts and requests, and answers each of these.
 import hamflowEngine, { type EngineModule } from "hamflow-engine";
-import type { Question, Reply } from "./protocol";
+import { instantiate } from "./parts";
+import type { Part, Question, Reply } from "./protocol";
 
 const scope = self as unknown as { onmessage: (event: MessageEvent) => void; postMessage(message: unknown, transfer: Transferable[]): void };
 let engine: Promise<EngineModule>;
+let rest: WebAssembly.Module | undefined;
+let rest_address = "";
 
+/// Before the rest is there, the page asks only what does not need it (Engine.first_suffices). If a function of the rest
+/// is called all the same, the worker waits for it here.
+function rest_at_once(): WebAssembly.Module {
+  if (rest !== undefined) return rest;
+  const request = new XMLHttpRequest();
+  request.open("GET", rest_address, false);
+  request.responseType = "arraybuffer";
+  request.send();
+  return (rest = new WebAssembly.Module(request.response as ArrayBuffer));
+}
 function start(module: WebAssembly.Module): Promise<EngineModule> {
   return hamflowEngine({
     instantiateWasm(imports, done) {
-      void WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
-      return {};
+      const instance = instantiate(module, imports, rest_at_once);
+      done(instance, module);
+      return instance.exports;
     },
   });
 }
@@ -49,14 +63,28 @@ function answer(module: EngineModule, request: Question): Reply {
   return response;
 }
 
+function answered(module: EngineModule, request: Question): Reply {
+  try {
+    return answer(module, request);
+  } catch (error) {
+    return { id: request.id, json: JSON.stringify({ errors: [{ line: 0, column: 0, key: "", message: String(error) }] }), rows: null, points: null };
+  }
+}
+
 scope.onmessage = (event) => {
-  if (event.data instanceof WebAssembly.Module) {
-    engine = start(event.data);
+  const message = event.data as Part | Question;
+  if ("first" in message) {
+    rest_address = message.rest_address;
+    engine = start(message.first);
     return;
   }
-  const request = event.data as Question;
+  if ("rest" in message) {
+    rest = message.rest;
+    return;
+  }
+  const request = message;
   void engine.then((module) => {
-    const response = answer(module, request);
+    const response = answered(module, request);
     const transfer = [response.rows, response.points].filter((all) => all !== null).map((all) => all.buffer as ArrayBuffer);
     scope.postMessage(response, transfer);
   });

@@ -10,18 +10,12 @@ export interface Entry {
   display: Display; // "view" of the file: x; y, and any of equal, bodies, turns, z=COLUMN
   speed: number; // log10 of steps a second
   second: string; // a method beside that of the scenario; empty: none
+  starts: [number, number][]; // of the section
   toml: string;
 }
 
-export function entry_of(name: string, text: string): Entry {
-  const heads = new Map<string, string>();
-  const rest: string[] = [];
-  for (const line of text.split("\n")) {
-    const found = /^# (title|look|question|view|second): (.*)$/.exec(line);
-    if (found) heads.set(found[1]!, found[2]!);
-    else rest.push(line);
-  }
-  const head = (key: string): string => heads.get(key) ?? "";
+function entry_of({ name, heads, toml }: (typeof files)[number]): Entry {
+  const head = (key: string): string => heads[key] ?? "";
   const [x = "", y = "", ...flags] = head("view").split(/\s*;\s*/);
   const given = (key: string): string => flags.find((flag) => flag.startsWith(`${key}=`))?.slice(key.length + 1) ?? "";
   const is = (flag: string): boolean => flags.includes(flag);
@@ -30,8 +24,9 @@ export function entry_of(name: string, text: string): Entry {
     display: { x, y, z: given("z"), equal: is("equal"), bodies: is("bodies"), turns: is("turns") },
     speed: Number(given("speed") || "2.5"),
     title: head("title"), look: head("look"), question: head("question"), second: head("second"),
-    toml: rest.join("\n").trimStart(),
+    starts: head("starts").split(";").filter((each) => each.trim() !== "").map((each) => each.trim().split(/\s+/).map(Number) as [number, number]),
+    toml,
   };
 }
 
-export const gallery: Entry[] = files.map((file) => entry_of(file.name, file.text));
+export const gallery: Entry[] = files.map(entry_of);

@@ -1,5 +1,5 @@
 // A dropped run.h5 or sweep.h5 as rows of the page.
-import { asset_bytes } from "../engine/engine";
+import { asset_bytes } from "../engine/data";
 import type { FileRows } from "../engine/hdf5_worker";
 
 const most_bytes = 200e6;

@@ -1,5 +1,8 @@
 // What `hamflow view` puts into the page: a scenario, and the rows of a run or the members of a sweep.
 
+import { decoded } from "../engine/data";
+import type { FileRows } from "../engine/hdf5_worker";
+
 export interface Inlined {
   kind: "scenario" | "run" | "sweep";
   name: string;
@@ -10,13 +13,10 @@ export interface Inlined {
 }
 
 /// null: the page was opened without a scenario.
-export function inlined(): Inlined | null {
-  const text = document.getElementById("inlined")?.textContent?.trim() ?? "";
-  return text === "" ? null : (JSON.parse(text) as Inlined);
-}
-
-/// The browser decodes a data address much faster than a script does.
-export async function rows_of(given: Inlined): Promise<Float64Array> {
-  const answer = await fetch(`data:application/octet-stream;base64,${given.rows}`);
-  return new Float64Array(await answer.arrayBuffer());
+export async function inlined(): Promise<FileRows | null> {
+  const element = document.getElementById("inlined");
+  if (element === null) return null;
+  await new Promise((resolve) => setTimeout(resolve)); // the megabytes of text are a task of their own
+  const { given, bytes } = await decoded("inlined", element.textContent!);
+  return { given: given!, numbers: new Float64Array(bytes) };
 }
