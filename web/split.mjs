@@ -128,25 +128,37 @@ const join_bytes = (parts) => Buffer.concat(parts.map((part) => Buffer.from(part
 const module_of = (sections) => join_bytes([[0, 0x61, 0x73, 0x6d, 1, 0, 0, 0], ...sections.flatMap(({ id, content }) => [[id], leb(content.length), content])]);
 const custom = (name, content) => ({ id: 0, content: join_bytes([leb(name.length), Buffer.from(name), content]) });
 
-/// Moves segments of data to which nothing in the first part refers: tables of elementary functions. A number in the code
-/// or in other data that could be an address in a segment keeps it where it is. Tables of numbers are at multiples of 4.
-/// @param text the first part in the text format
-function data_of_rest(sections, text) {
+/// The segments of a module's data, each cut where names of types begin and end.
+function segments_of(sections) {
   const read = new Reader(sections.find(({ id }) => id === 11).content);
-  const segments = read.list(() => {
-    const from = read.at;
+  return read.list(() => {
     if (read.number() !== 0) throw new Error("a segment of data has another form");
     const address = read.constant();
     const content = read.skip(read.number());
-    return { address, content, encoded: read.bytes.subarray(from, read.at) };
-  });
+    const cuts = [0, content.length];
+    const names_of_types = new Set(); // where they begin; compilers write them as N7hamflow8TrajectoryE
+    for (const { index, 0: names } of content.toString("latin1").matchAll(/(?:\w*(?:N7hamflow|NSt3__2)\w*\0)+/g)) {
+      cuts.push(index, index + names.length);
+      names_of_types.add(index);
+    }
+    const at = [...new Set(cuts)].sort((x, y) => x - y);
+    return at.slice(1).map((to, i) => ({ address: address + at[i], content: content.subarray(at[i], to), has_names: names_of_types.has(at[i]) }));
+  }).flat();
+}
+
+/// Moves data that the first part does not read: names of types, which no code prints, and tables of numbers to which nothing
+/// in the first part refers. A multiple of 4 in the code or in other data that could be an address in a table keeps it where it is.
+/// @param text the first part in the text format
+function data_of_rest(sections, text) {
+  const segments = segments_of(sections);
   const referred = [...text.matchAll(/(?:(?<!\(data \()i32\.const |offset=)(\d+)/g)].map((found) => Number(found[1]));
   for (const { address, content } of segments) {
     for (let k = -address & 3; k + 4 <= content.length; k += 4) referred.push(content.readUInt32LE(k));
   }
   const addresses = referred.filter((each) => each % 4 === 0).sort((a, b) => a - b);
   const margin = 64; // an address in the code may be that of a table plus or minus some elements
-  const is_of_rest = ({ address, content }) => {
+  const is_of_rest = ({ address, content, has_names }) => {
+    if (has_names) return true;
     if (content.length < 2000) return false;
     let [low, high] = [0, addresses.length];
     while (low < high) {
@@ -156,7 +168,7 @@ function data_of_rest(sections, text) {
     }
     return !(addresses[low] < address + content.length + margin);
   };
-  const section = (all) => ({ id: 11, content: join_bytes([leb(all.length), ...all.map(({ encoded }) => encoded)]) });
+  const section = (all) => ({ id: 11, content: join_bytes([leb(all.length), ...all.flatMap(({ address, content }) => [[0, 0x41], leb(address, true), [0x0b], leb(content.length), content])]) });
   return { first: section(segments.filter((each) => !is_of_rest(each))), rest: section(segments.filter(is_of_rest)) };
 }
 

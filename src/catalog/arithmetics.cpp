@@ -3,15 +3,13 @@
 
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/detail/arithmetic/more_digits.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
 const std::vector<std::string>& arithmetics() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"double", "compensated"};
-    if (has_more_digits) all.push_back("double-double");
+    std::vector<std::string> all{"double", "compensated", "double-double"};
     if (has_quad_and_mp) all.insert(all.end(), {"quad", "mp(d)"});
     all.push_back("lattice");
     return all;
@@ -38,9 +36,6 @@ int digits_beyond_double(const std::string& arithmetic) {
 
 void check_arithmetic(const std::string& arithmetic) {
   const std::vector<std::string>& names = arithmetics();
-  if (!has_more_digits && arithmetic == "double-double") {
-    throw Error("found '" + arithmetic + "'; allowed " + joined(names) + "; the laboratory has no more digits");
-  }
   if (!has_quad_and_mp && (arithmetic == "quad" || arithmetic.starts_with("mp"))) {
     throw Error("found '" + arithmetic + "'; allowed " + joined(names) +
                 "; a portable build has neither quad nor mp(d)");

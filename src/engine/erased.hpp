@@ -125,12 +125,10 @@ std::unique_ptr<StepMap> step_map_of(const Functions& functions, const Request& 
 /// The simulation that action.template operator()<R>() makes in the number type of any arithmetic.
 template <class Action>
 std::unique_ptr<Simulation> simulated_in(const std::string& arithmetic, const Action& action) {
-  if constexpr (has_more_digits) {
-    if (digits_beyond_double(arithmetic) > 0) {
-      auto simulation = in_arithmetic(arithmetic, action);
-      const int digits = mp_digits(arithmetic);
-      return digits > 0 ? with_digits(digits, std::move(simulation)) : std::move(simulation);
-    }
+  if (digits_beyond_double(arithmetic) > 0) {
+    auto simulation = in_arithmetic(arithmetic, action);
+    const int digits = mp_digits(arithmetic);
+    return digits > 0 ? with_digits(digits, std::move(simulation)) : std::move(simulation);
   }
   return action.template operator()<double>();
 }

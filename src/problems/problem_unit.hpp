@@ -58,7 +58,7 @@ class ProblemUnit : ProblemStart<Family> {
 
   /// Null if there is no typed kernel for the request: it then runs behind virtual calls, recorded if possible.
   static std::unique_ptr<Simulation> simulate([[maybe_unused]] const Request& request) {
-#ifdef HAMFLOW_DOUBLE_ONLY
+#ifdef HAMFLOW_LABORATORY
     return nullptr;  // a small program has none
 #else
     return visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {

@@ -1,9 +1,10 @@
-// The laboratory (web/engine) is built without arithmetics that have more digits than double, so that it is small.
+// The laboratory (web/engine) is built without what computes in more digits beside the steps of a run in double-double:
+// closed forms, conversions of states, maps of steps. So it is smaller.
 #pragma once
 
 namespace hamflow {
 
-#ifdef HAMFLOW_DOUBLE_ONLY
+#ifdef HAMFLOW_LABORATORY
 inline constexpr bool has_more_digits = false;
 #else
 inline constexpr bool has_more_digits = true;
