@@ -128,48 +128,60 @@ const join_bytes = (parts) => Buffer.concat(parts.map((part) => Buffer.from(part
 const module_of = (sections) => join_bytes([[0, 0x61, 0x73, 0x6d, 1, 0, 0, 0], ...sections.flatMap(({ id, content }) => [[id], leb(content.length), content])]);
 const custom = (name, content) => ({ id: 0, content: join_bytes([leb(name.length), Buffer.from(name), content]) });
 
-/// The segments of a module's data, each cut where names of types begin and end.
-function segments_of(sections) {
+/// The segments of a module's data, each cut where texts begin and end.
+function pieces_of(sections) {
   const read = new Reader(sections.find(({ id }) => id === 11).content);
   return read.list(() => {
     if (read.number() !== 0) throw new Error("a segment of data has another form");
     const address = read.constant();
     const content = read.skip(read.number());
-    const cuts = [0, content.length];
-    const names_of_types = new Set(); // where they begin; compilers write them as N7hamflow8TrajectoryE
-    for (const { index, 0: names } of content.toString("latin1").matchAll(/(?:\w*(?:N7hamflow|NSt3__2)\w*\0)+/g)) {
-      cuts.push(index, index + names.length);
-      names_of_types.add(index);
+    const cuts = new Set([0, content.length]);
+    const texts = new Map(); // by where they begin
+    for (const { index, 0: text } of content.toString("latin1").matchAll(/[ -~\n]{6,}\0/g)) {
+      cuts.add(index).add(index + text.length);
+      texts.set(index, text);
     }
-    const at = [...new Set(cuts)].sort((x, y) => x - y);
-    return at.slice(1).map((to, i) => ({ address: address + at[i], content: content.subarray(at[i], to), has_names: names_of_types.has(at[i]) }));
+    const at = [...cuts].sort((x, y) => x - y);
+    return at.slice(1).map((to, i) => ({ address: address + at[i], end: address + to, content: content.subarray(at[i], to), text: texts.get(at[i]) }));
   }).flat();
 }
 
-/// Moves data that the first part does not read: names of types, which no code prints, and tables of numbers to which nothing
-/// in the first part refers. A multiple of 4 in the code or in other data that could be an address in a table keeps it where it is.
+/// A section of data; pieces that follow each other are one segment.
+function data_section(pieces) {
+  const runs = [];
+  for (const { address, end, content } of pieces) {
+    if (runs.at(-1)?.end === address) runs.at(-1).all.push(content), (runs.at(-1).end = end);
+    else runs.push({ address, end, all: [content] });
+  }
+  const encoded = ({ address, end, all }) => [[0, 0x41], leb(address, true), [0x0b], leb(end - address), ...all];
+  return { id: 11, content: join_bytes([leb(runs.length), ...runs.flatMap(encoded)]) };
+}
+
+/// Moves data that the first part does not read: texts and tables of numbers to which it has no address, and names of types, which no
+/// code prints. Any number in the code or in the data that could be an address is taken for one.
 /// @param text the first part in the text format
 function data_of_rest(sections, text) {
-  const segments = segments_of(sections);
-  const referred = [...text.matchAll(/(?:(?<!\(data \()i32\.const |offset=)(\d+)/g)].map((found) => Number(found[1]));
-  for (const { address, content } of segments) {
-    for (let k = -address & 3; k + 4 <= content.length; k += 4) referred.push(content.readUInt32LE(k));
+  const pieces = pieces_of(sections);
+  const all = [...text.matchAll(/(?:(?<!\(data \()i32\.const |offset=)(\d+)/g)].map((found) => Number(found[1]));
+  for (const { address, content } of pieces) {
+    for (let k = -address & 3; k + 4 <= content.length; k += 4) all.push(content.readUInt32LE(k));
   }
-  const addresses = referred.filter((each) => each % 4 === 0).sort((a, b) => a - b);
-  const margin = 64; // an address in the code may be that of a table plus or minus some elements
-  const is_of_rest = ({ address, content, has_names }) => {
-    if (has_names) return true;
-    if (content.length < 2000) return false;
+  all.sort((a, b) => a - b);
+  const tables = all.filter((each) => each % 4 === 0); // where tables of numbers and their elements begin
+  const any_between = (addresses, from, to) => {
     let [low, high] = [0, addresses.length];
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (addresses[middle] < address - margin) low = middle + 1;
+      if (addresses[middle] < from) low = middle + 1;
       else high = middle;
     }
-    return !(addresses[low] < address + content.length + margin);
+    return addresses[low] < to;
   };
-  const section = (all) => ({ id: 11, content: join_bytes([leb(all.length), ...all.flatMap(({ address, content }) => [[0, 0x41], leb(address, true), [0x0b], leb(content.length), content])]) });
-  return { first: section(segments.filter((each) => !is_of_rest(each))), rest: section(segments.filter(is_of_rest)) };
+  const margin = 64; // an address in the code may be that of a table plus or minus some elements
+  const is_name_of_type = /^\w*(?:N7hamflow|NSt3__2)\w*\0$/; // as compilers write it
+  const is_of_rest = ({ address, end, content, text: piece }) =>
+    piece === undefined ? content.length >= 2000 && !any_between(tables, address - margin, end + margin) : is_name_of_type.test(piece) || !any_between(all, address, end);
+  return { first: data_section(pieces.filter((each) => !is_of_rest(each))), rest: data_section(pieces.filter(is_of_rest)) };
 }
 
 /// @param folder has engine.js and engine.wasm   @param scenario TOML that the page begins with
