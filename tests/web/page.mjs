@@ -274,8 +274,12 @@ const tests = {
     await energy.press("Enter");
     await page.waitForFunction(() => /energy = 0.03/.test(document.getElementById("editor").value));
     await page.waitForFunction(() => { const count = Number(document.getElementById("section-count").textContent.split(" ")[0]); return count > 5000 && count < 18000; });
-    await page.waitForTimeout(1500);
-    const count = Number((await text(page, "section-count")).split(" ")[0]);
+    const points = async () => Number((await text(page, "section-count")).split(" ")[0]);
+    let count = 0;
+    for (let before = -1; count !== before; count = await points()) { // until nothing is added
+      before = count;
+      await page.waitForTimeout(1500);
+    }
     expect(count < 18000 && count % 2000 === 0, `those that exist: ${count}`);
     expect((await text(page, "complaints")) === "", `the others are left out: ${await text(page, "complaints")}`);
   },
