@@ -15,8 +15,8 @@ export function decoded(kind: DataQuestion["kind"], text: string): Promise<DataR
     };
   }
   const question: DataQuestion = { id: next_id++, kind, text };
-  return new Promise((resolve) => {
-    waiting.set(question.id, resolve);
+  return new Promise((resolve, reject) => {
+    waiting.set(question.id, (reply) => (reply.error === undefined ? resolve(reply) : reject(new Error(`what this page has inside is damaged: ${reply.error}`))));
     worker!.postMessage(question);
   });
 }

@@ -12,6 +12,7 @@ export interface DataReply {
   module?: WebAssembly.Module;
   given?: Omit<Inlined, "rows">; // its rows are the bytes
   bytes: ArrayBuffer;
+  error?: string; // why it cannot be decoded
 }
 
 const scope = self as unknown as { onmessage: (event: MessageEvent<DataQuestion>) => void; postMessage(message: DataReply, transfer: Transferable[]): void };
@@ -31,4 +32,7 @@ async function answer({ id, kind, text }: DataQuestion): Promise<DataReply> {
   return { id, given, bytes: await (await decoded(rows)).arrayBuffer() };
 }
 
-scope.onmessage = (event) => void answer(event.data).then((reply) => scope.postMessage(reply, [reply.bytes]));
+scope.onmessage = ({ data }) =>
+  void answer(data)
+    .catch((error: unknown): DataReply => ({ id: data.id, bytes: new ArrayBuffer(0), error: String(error) }))
+    .then((reply) => scope.postMessage(reply, [reply.bytes]));
